@@ -1,4 +1,4 @@
-//! The answer to a model that is being edited: its mistakes, or its results.
+//! The answer to a model that is being edited: its errors, or its results.
 
 use std::sync::Arc;
 use std::sync::atomic::AtomicBool;
@@ -22,8 +22,8 @@ use crate::language::Language;
 use crate::tree::{self, path_of};
 use crate::{LiveError, diagnostics, inputs, limited, outputs};
 
-/// Trials of all rows together, at most: what the page refines to in the background. The command line
-/// makes as many as a file asks for.
+/// Maximum number of trials over all rows, up to which the page refines in the background. The
+/// command line makes as many as a file requests.
 const MOST_TRIALS: u64 = 100_000_000;
 
 /// Rows of conditions that the page evaluates, at most.
@@ -33,34 +33,33 @@ const MOST_ROWS: usize = 10_000;
 #[derive(Debug, Deserialize)]
 pub(crate) struct Asked {
     text: String,
-    /// Changes that are made to the text first; the answer has it as it is then.
+    /// Changes that are applied to the text first; the answer contains the changed text.
     #[serde(default)]
     edits: Vec<Edit>,
     #[serde(default)]
     name: String,
-    /// Trials of all rows together, where not as many as the file asks for are made.
+    /// The number of trials over all rows, if fewer are made than the file requests.
     #[serde(default)]
     trials: Option<u64>,
-    /// Whether as many trials are made as the file asks for.
+    /// Whether the number of trials in the file is used.
     #[serde(default)]
     full: bool,
     /// Whether figures are drawn for a narrow column.
     #[serde(default)]
     narrow: bool,
-    /// The output, counted from 0, whose parts of the page are wanted; all of them unless it is
-    /// given, the first one where there is none of that number.
+    /// The output, counted from 0, whose parts of the page are wanted. All outputs if it is not
+    /// given, the first one if it does not exist.
     #[serde(default)]
     output: Option<usize>,
-    /// The row of conditions, counted from 0, that the parts are about; the first one where there is
-    /// none of that number.
+    /// The row of conditions, counted from 0, for the parts; the first one if it does not exist.
     #[serde(default)]
     row: usize,
-    /// The language of what is said: `de`, else English.
+    /// The language of messages: `de`, else English.
     #[serde(default)]
     lang: Language,
 }
 
-/// What a text says and what follows from it.
+/// The contents of a text and its results.
 pub(crate) fn answer(
     files: FileReader<'_>,
     asked: &Asked,
@@ -81,7 +80,7 @@ pub(crate) fn answer(
     let root = tree::parse(bare).ok();
     let read = match kind {
         TextKind::Model => files.model_text(name, text, Path::new(""), &[]),
-        // their pages evaluate them, and tell what only that finds
+        // their pages evaluate them and report errors that only the evaluation finds
         other => {
             let found = checked(files, other, name, text).err();
             answer["diagnostics"] =
@@ -109,7 +108,7 @@ pub(crate) fn answer(
     Ok(answer)
 }
 
-/// The mistakes of a text that is no model.
+/// The errors of a text that is not a model.
 fn checked(
     files: FileReader<'_>,
     kind: TextKind,
@@ -134,7 +133,7 @@ fn merge(into: &mut Json, from: Json) {
     }
 }
 
-/// What stands in the file, as the page's fields have it.
+/// The contents of the file, as fields of the page.
 fn stated(text: &str, root: &Value<'_>, task: Option<&Task>) -> Json {
     let scalar = |keys: &[&str]| {
         let found = keys.iter().try_fold(root, |value, key| tree::get(value, key));
@@ -174,12 +173,12 @@ fn stated(text: &str, root: &Value<'_>, task: Option<&Task>) -> Json {
             "seed": scalar(&["monte_carlo", "seed"]),
             "digits": scalar(&["monte_carlo", "digits"]),
         },
-        // names without a meaning need not be looked for where there are none
+        // names without a meaning need no search if there are none
         "missing": if task.is_some() { Vec::new() } else { missing(root) },
     })
 }
 
-/// Names that equations use and nothing gives, in the order in which they occur.
+/// Names that equations use but nothing defines, in the order in which they occur.
 fn missing(root: &Value<'_>) -> Vec<String> {
     let names_of = |key: &str| -> Vec<String> {
         let object = tree::get(root, key).and_then(Value::as_object);
@@ -210,7 +209,7 @@ fn missing(root: &Value<'_>) -> Vec<String> {
     missing
 }
 
-/// The settings of this answer, and whether they are those of the file.
+/// Applies the settings of this answer; returns whether they are those of the file.
 fn settle(task: &mut Task, asked: &Asked) -> bool {
     let rows = (task.rows.len() as u64).max(1);
     let each = |all: u64| (all / rows).max(1000);
@@ -230,7 +229,7 @@ fn settle(task: &mut Task, asked: &Asked) -> bool {
         Trials::Fixed(count) => count.min(few),
         Trials::Adaptive => few,
     };
-    // figures without noise are made when the hand rests
+    // results without noise are computed when typing pauses
     settings.method = settings.method.map(|_| MethodChoice::MonteCarlo);
     let is_whole = settings.trials == Trials::Fixed(count)
         && settings.decide_up_to == 0
@@ -240,7 +239,7 @@ fn settle(task: &mut Task, asked: &Asked) -> bool {
     is_whole
 }
 
-/// The evaluation and the parts of its page; or what is wrong that only the evaluation finds.
+/// The evaluation and the parts of its page, or the errors that only the evaluation finds.
 fn results(file: &ModelFile, asked: &Asked, stop: &Arc<AtomicBool>) -> Result<Json, Diagnostics> {
     let mut task = file.task.clone();
     let all_rows = task.rows.len();
@@ -259,7 +258,7 @@ fn results(file: &ModelFile, asked: &Asked, stop: &Arc<AtomicBool>) -> Result<Js
         let found = histograms(&task, &evaluation, row, &control).map_err(failed)?;
         place.extend(found.into_iter().flatten());
     }
-    // when the hand rests: it takes as long as the run
+    // when typing pauses: it takes as long as the run
     let settled = match asked.full && !evaluation.stopped {
         true => convergence(&task, &evaluation, row, &control).map_err(failed)?,
         false => None,

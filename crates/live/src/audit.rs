@@ -1,4 +1,4 @@
-//! What the Type B assumptions of a model decide.
+//! The effect of the Type B assumptions of a model.
 
 use std::path::Path;
 use std::sync::Arc;
@@ -27,17 +27,17 @@ pub(crate) struct Asked {
     lang: Language,
 }
 
-/// Trials of each variant: a page that follows the hand needs to see what is at stake, not its third
-/// digit.
+/// Number of trials of each variant: a page that follows the typing shows which assumptions matter,
+/// not the third digit.
 const TRIALS: u64 = 20_000;
 
-/// The relative change of the expanded uncertainty that is allowed.
+/// The allowed relative change of the expanded uncertainty.
 const ALLOWED: f64 = 0.05;
 
-/// Variables and rows up to which the audit is made unasked.
+/// Maximum number of variables and of rows for an automatic audit.
 const MOST: usize = 60;
 
-/// The audit as a part of the page; `null` where there is none to be made.
+/// The audit as a part of the page; `null` if there is none.
 pub(crate) fn audited(
     files: FileReader<'_>,
     asked: &Asked,

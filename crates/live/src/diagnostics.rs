@@ -1,4 +1,4 @@
-//! Mistakes as the page underlines them.
+//! Errors for the page to underline.
 
 use gumption_text::Diagnostics;
 use jsonc_parser::ast::Value;
@@ -7,17 +7,17 @@ use serde_json::{Value as Json, json};
 
 use crate::tree::{self, Step};
 
-/// Mistakes that are told, at most: a table of a million faulty cells helps nobody.
+/// Maximum number of errors in an answer: a list of a million faulty cells helps nobody.
 const MOST: usize = 100;
 
-/// The mistakes of a text as the page lists and underlines them, for programs that find them
-/// elsewhere than in a call of the page.
+/// The errors of a text in the form of the page, for programs that find errors outside a call of
+/// the page.
 pub fn mistakes(text: &str, found: &Diagnostics) -> Json {
     list(text, found)
 }
 
-/// The mistakes of a text as a list, each with its place in UTF-16 units, as scripts count, and the
-/// path of the value that it is about.
+/// The errors of a text as a list, each with its position in UTF-16 units, as scripts count, and
+/// the path of its value.
 pub(crate) fn list(text: &str, found: &Diagnostics) -> Json {
     let bare = text.strip_prefix('\u{feff}').unwrap_or(text);
     let shift = usize::from(bare.len() < text.len());
@@ -25,7 +25,7 @@ pub(crate) fn list(text: &str, found: &Diagnostics) -> Json {
     let mut place = Places { text: bare, byte: 0, units: shift, shift };
     let list = found.0.iter().take(MOST).map(|diagnostic| {
         let (line, column) = diagnostic.position();
-        // mistakes of other files have no place in this text
+        // errors in other files have no position in this text
         let own = diagnostic.source.text == bare;
         let span = if own { diagnostic.span.clone() } else { 0..0 };
         let path = root.as_ref().filter(|_| own).map(|root| tree::path_to(root, span.start));
@@ -49,8 +49,8 @@ pub(crate) fn list(text: &str, found: &Diagnostics) -> Json {
     Json::Array(list)
 }
 
-/// The place within a text in quotes, in UTF-16 units of what stands between them; `None` where that
-/// has escapes, or the place lies elsewhere.
+/// The position within a quoted text, in UTF-16 units of its content; `None` if it has escapes, or
+/// if the position lies elsewhere.
 fn within(
     text: &str,
     root: &Value<'_>,
@@ -67,7 +67,7 @@ fn within(
     Some([units(span.start)?, units(span.end)?])
 }
 
-/// Bytes of a text as UTF-16 units: counted on from the last one where that is possible.
+/// Converts bytes of a text to UTF-16 units, counting on from the last position if possible.
 struct Places<'t> {
     text: &'t str,
     byte: usize,

@@ -1,7 +1,7 @@
-//! Changes of a text that leave everything else of it as it is: order, comments, line breaks.
+//! Changes to a text that keep everything else in it: order, comments, line breaks.
 //!
-//! The tree that the parser keeps for changes breaks the lines of every object that something is put
-//! into; here an object on one line stays on one.
+//! The parser's editable tree breaks the lines of every object into which something is inserted;
+//! here an object on one line stays on one.
 
 use std::ops::Range;
 
@@ -20,24 +20,24 @@ pub(crate) struct Edit {
     /// What it becomes.
     #[serde(default, with = "given")]
     value: Option<serde_json::Value>,
-    /// What it becomes, as somebody typed it: a number as it stands, otherwise a text.
+    /// The new value, as typed: a number as it is, otherwise a text.
     #[serde(default)]
     typed: Option<String>,
     /// Whether it goes.
     #[serde(default)]
     remove: bool,
-    /// The name that the key gets.
+    /// The new name of the key.
     #[serde(default)]
     rename: Option<String>,
-    /// The place among its neighbours that something new gets; the last one unless there is one.
+    /// The index among its neighbours at which a new element is inserted; by default the end.
     #[serde(default)]
     before: Option<usize>,
-    /// The members that an object shall have, in this order: those that are the same stay untouched.
+    /// The wanted members of an object, in this order; unchanged members stay untouched.
     #[serde(default)]
     members: Option<Vec<(String, serde_json::Value)>>,
 }
 
-/// A value that is there, also where it is null.
+/// A value that is present, even if it is null.
 mod given {
     use serde::{Deserialize, Deserializer};
 
@@ -49,12 +49,12 @@ mod given {
 }
 
 impl Edit {
-    /// A value in the place of what is there, or beside it.
+    /// Sets a value, existing or new.
     pub(crate) fn set(path: Vec<Step>, value: serde_json::Value) -> Self {
         Self { value: Some(value), ..Self::of(path) }
     }
 
-    /// The end of what is there.
+    /// Removes an existing value.
     pub(crate) fn remove(path: Vec<Step>) -> Self {
         Self { remove: true, ..Self::of(path) }
     }
@@ -78,7 +78,7 @@ impl Edit {
 /// The text with all changes, one after the other.
 ///
 /// # Errors
-/// A text that is no JSON object, or a change that does not go with it, in a sentence.
+/// The text is not a JSON object, or a change is not applicable; a sentence.
 pub(crate) fn edited(text: &str, edits: &[Edit]) -> Result<String, String> {
     let bare = text.strip_prefix('\u{feff}').unwrap_or(text);
     let mark = text.strip_suffix(bare).unwrap_or("");
@@ -123,7 +123,7 @@ fn spliced(text: &str, range: Range<usize>, with: &str) -> String {
     [before, with, after].concat()
 }
 
-/// JSON on one line, with spaces as people write it.
+/// JSON on one line, with the usual spaces.
 fn written(value: &serde_json::Value) -> String {
     let text = |text: &str| serde_json::Value::from(text).to_string();
     match value {
@@ -140,14 +140,14 @@ fn written(value: &serde_json::Value) -> String {
     }
 }
 
-/// What somebody typed: a number with the digits that it has, a list of numbers, or a text.
+/// A typed value: a number with its digits, a list of numbers, or a text.
 fn as_typed(typed: &str) -> String {
     let typed = typed.trim();
     let number = |text: &str| -> Option<String> {
         if serde_json::from_str::<serde_json::Number>(text).is_ok() {
             return Some(text.to_owned());
         }
-        // `.5`, `5.` and `+5` are numbers of people
+        // people also write `.5`, `5.` and `+5`
         let plain = text.strip_prefix('+').unwrap_or(text);
         let begins =
             plain.trim_start_matches('-').starts_with(|c: char| c.is_ascii_digit() || c == '.');
@@ -167,13 +167,13 @@ fn as_typed(typed: &str) -> String {
     written(&typed.into())
 }
 
-/// The object or list that something lies in, and the last step to it.
+/// The object or list that contains a value, and the last step to it.
 fn container<'v, 't>(root: &'v Value<'t>, path: &'v [Step]) -> Option<(&'v Value<'t>, &'v Step)> {
     let (last, above) = path.split_last()?;
     Some((tree::at(root, above)?, last))
 }
 
-/// What goes with a value: its key, and a comma.
+/// The range to remove with a value: its key, and a comma.
 fn removed(root: &Value<'_>, path: &[Step]) -> Option<Range<usize>> {
     let (of, last) = container(root, path)?;
     let (ranges, place) = match (of, last) {
@@ -214,8 +214,7 @@ fn renamed(text: &str, root: &Value<'_>, edit: &Edit, name: &str) -> Result<Stri
     Ok(spliced(text, place, &written(&name.into())))
 }
 
-/// The text with something new in an object or a list. Objects that are missing on the way to it are
-/// made.
+/// The text with a new element in an object or a list. Missing objects on the path are created.
 fn added(
     text: &str,
     root: &Value<'_>,
@@ -248,7 +247,7 @@ fn put_into_object(
     depth: usize,
 ) -> String {
     let ranges = ranges(&object.properties);
-    // what a file names by itself stands on lines of its own, what is said of one of them on one line
+    // named elements of a file are on lines of their own, the description of each is on one line
     put(text, object.start()..object.end(), &ranges, value, before, depth < 2)
 }
 
@@ -270,7 +269,7 @@ fn put(
     }
     if let Some(last) = ranges.last() {
         let first = ranges.first().unwrap_or(last);
-        // as the last one that begins a line, unless all stand on the line of the bracket
+        // like the last element that begins a line, unless all are on the line of the bracket
         let lines = ranges.iter().rev().find_map(|one| own_line(text, one.start));
         let broken = own_line(text, first.start).is_some();
         let gap = match lines {
@@ -297,7 +296,7 @@ fn put(
     spliced(text, inside, &format!("\n{indent}  {value}\n{indent}"))
 }
 
-/// The white space in front of a place, if nothing else stands there on its line.
+/// The white space before a position, if nothing else precedes it on its line.
 fn own_line(text: &str, place: usize) -> Option<String> {
     let before = text.get(..place)?;
     let start = before.rfind('\n')? + 1;
@@ -339,7 +338,7 @@ fn with_members(
     if now.len() == names.len()
         && let [place] = differ.as_slice()
     {
-        // one that has another name now
+        // a member with a new name
         edits.push(Edit::rename(step(now[*place]), names[*place]));
         had[*place] = names[*place].to_owned();
     } else {
@@ -386,7 +385,7 @@ mod tests {
         edited(TEXT, &edits).unwrap()
     }
 
-    /// All but the changed lines, to be compared with the lines before.
+    /// All unchanged lines, to compare with the lines before.
     fn lines_of(before: &str, after: &str) -> Vec<String> {
         let known: Vec<&str> = before.lines().collect();
         after.lines().filter(|line| !known.contains(line)).map(str::to_owned).collect()

@@ -15,7 +15,7 @@ pub(crate) struct Asked {
     template: Option<String>,
 }
 
-/// A model of which nothing is known yet.
+/// A model without content.
 const EMPTY: &str = "{\n  \"format\": 1,\n  \"title\": \"\",\n  \"inputs\": {},\n  \"equations\": {},\n  \"outputs\": {}\n}\n";
 
 /// The text of a new file.
@@ -43,7 +43,7 @@ fn named<'t>(
     Err(LiveError::Request(format!("there is no {what} `{name}`{hint}")))
 }
 
-/// What there is to start from.
+/// The available starting points.
 pub(crate) fn list(live: &Live<'_>) -> Json {
     let entry = |name: &str, text: &str| {
         let of: Json = serde_json::from_str(text).unwrap_or(Json::Null);

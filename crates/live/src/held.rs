@@ -2,14 +2,14 @@
 
 use gumption_text::FileSource;
 
-/// Files that are in memory and no others, by the names that model files have for them: those that
-/// were dropped onto a page that has no server.
+/// Files in memory only, by their names in model files: files that were dropped onto a page without
+/// a server.
 #[derive(Clone, Debug, Default)]
 pub struct HeldFiles(pub Vec<(String, Vec<u8>)>);
 
 impl HeldFiles {
-    /// The same files by the names that a text, and those of them that are model files, have for them:
-    /// a file that was dropped has lost its folder.
+    /// The same files by the names that a text, and the model files among them, use: a dropped file
+    /// has lost its folder.
     #[must_use]
     pub fn named_in(&self, text: &str) -> Self {
         Self(gumption_files::named_in(&self.0, text))

@@ -13,7 +13,7 @@ use crate::LiveError;
 /// A request of the call `import`.
 #[derive(Debug, Deserialize)]
 pub(crate) struct Asked {
-    /// The file's name, whose extension says what it is.
+    /// The file's name, whose extension gives its kind.
     name: String,
     /// Its content.
     base64: String,
@@ -24,7 +24,7 @@ pub(crate) fn imported(asked: &Asked) -> Result<Json, LiveError> {
     let bytes = STANDARD
         .decode(&asked.base64)
         .map_err(|why| LiveError::Request(format!("`base64`: {why}")))?;
-    // a name alone, so that nothing is looked for anywhere
+    // only a name, so that no folder is searched
     let name = Path::new(&asked.name).file_name().unwrap_or_default();
     match import_budget_bytes(Path::new(name), bytes, &ImportOptions::default()) {
         Ok(made) => Ok(json!({"text": made.text, "notes": made.notes})),

@@ -1,4 +1,4 @@
-//! The rows of the page's tables: what stands in the file, with the path of every cell.
+//! The rows of the page's tables: the contents of the file, with the path of every cell.
 
 use gumption_engine::distribution::Distribution;
 use gumption_engine::task::{Task, Variable};
@@ -10,10 +10,10 @@ use serde_json::{Value as Json, json};
 
 use crate::tree::{self, Step, path_of};
 
-/// Rows of a table, at most.
+/// Maximum number of rows of a table.
 const MOST: usize = 500;
 
-/// A value as somebody would type it: a text without its quotes, everything else as it stands.
+/// A value as a user would type it: a text without its quotes, everything else unchanged.
 pub(crate) fn raw(text: &str, value: &Value<'_>) -> String {
     match value {
         Value::StringLit(found) => found.value.clone().into_owned(),
@@ -21,7 +21,7 @@ pub(crate) fn raw(text: &str, value: &Value<'_>) -> String {
     }
 }
 
-/// The keys of an object as cells; of lists and objects the JSON text.
+/// The keys of an object as cells; lists and objects as JSON text.
 fn cells(text: &str, object: &Object<'_>, path: &[Step]) -> Vec<Json> {
     let one = |member: &jsonc_parser::ast::ObjectProp<'_>| {
         let key = member.name.as_str();
@@ -85,7 +85,7 @@ fn row(text: &str, name: &str, value: &Value<'_>, path: &[Step], task: Option<&T
     row["name"] = json!(name);
     row["path"] = json!(path);
     row["component"] = json!(false);
-    // what is known of an input with components is known of them
+    // the state of an input with components is that of the components
     let of_components = row["form"] == "components";
     let known = task.filter(|_| !of_components).and_then(|task| drawn(task, name));
     if let Some((variable, distribution)) = known {
@@ -103,14 +103,14 @@ fn row(text: &str, name: &str, value: &Value<'_>, path: &[Step], task: Option<&T
     row
 }
 
-/// What is known about a variable in the first row of conditions.
+/// The distribution of a variable in the first row of conditions.
 pub(crate) fn drawn<'t>(task: &'t Task, name: &str) -> Option<(&'t Variable, &'t Distribution)> {
     let place = task.variables.iter().position(|variable| variable.name == name)?;
     let distribution = task.rows.first()?.distributions.get(place)?;
     Some((task.variables.get(place)?, distribution))
 }
 
-/// The conditions: one row each, and whether a table of a file has them.
+/// The conditions: one row each, and whether they come from a table file.
 pub(crate) fn conditions(text: &str, root: &Value<'_>, task: Option<&Task>) -> Json {
     let object = tree::get(root, "conditions").and_then(Value::as_object);
     let Some(object) = object else { return Json::Null };
@@ -136,7 +136,7 @@ pub(crate) fn conditions(text: &str, root: &Value<'_>, task: Option<&Task>) -> J
     json!({ "file": of_file, "rows": rows, "count": task.map(|task| task.rows.len()) })
 }
 
-/// The outputs that are reported: one row each, the keys of a tolerance among its cells.
+/// The reported outputs: one row each, with the keys of a tolerance among the cells.
 pub(crate) fn outputs(text: &str, root: &Value<'_>) -> Vec<Json> {
     let object = tree::get(root, "outputs").and_then(Value::as_object);
     let one = |member: &jsonc_parser::ast::ObjectProp<'_>| {
@@ -155,7 +155,7 @@ pub(crate) fn outputs(text: &str, root: &Value<'_>) -> Vec<Json> {
     object.into_iter().flat_map(|object| &object.properties).map(one).collect()
 }
 
-/// The declared correlation coefficients that are written one by one.
+/// The individually declared correlation coefficients.
 pub(crate) fn correlations(text: &str, root: &Value<'_>) -> Json {
     let Some(found) = tree::get(root, "correlations") else { return json!([]) };
     let Some(array) = found.as_array() else { return Json::Null };

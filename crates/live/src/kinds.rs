@@ -19,7 +19,8 @@ pub(crate) fn all() -> Json {
     json!({ "distributions": distributions, "units": units, "version": env!("CARGO_PKG_VERSION") })
 }
 
-/// Units with prefixes and composed ones that are offered beside the symbols; any other can be typed.
+/// Units with prefixes and composed units that are offered besides the symbols; any other can be
+/// typed.
 const COMPOSED: &[&str] = &[
     "1",
     "m/s^2",

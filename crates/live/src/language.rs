@@ -1,4 +1,4 @@
-//! The language of what the page is told.
+//! The language of the page's messages.
 
 use gumption_report::PageParts;
 use serde::Deserialize;

@@ -1,8 +1,7 @@
-//! The live page: what it is answered while a model is edited, and the page itself.
+//! The live page: its answers while a model is edited, and the page itself.
 //!
-//! Every answer is text to text: nothing here opens a file, starts a thread, looks at a clock or
-//! knows a network, so that the same answers come from a server on the user's machine and from a
-//! browser alone.
+//! Every answer is text to text: nothing here opens a file, starts a thread, reads a clock or uses
+//! a network, so that a server on the user's machine and a browser alone give the same answers.
 
 #![cfg_attr(test, allow(clippy::disallowed_methods))] // tests compare within tolerances
 
@@ -37,7 +36,7 @@ pub use diagnostics::mistakes;
 pub use gumption_text::FileSource;
 pub use held::HeldFiles;
 
-/// Bytes of a text that is edited on the page, at most.
+/// Maximum size of a text that can be edited on the page, in bytes.
 const MOST_TEXT: usize = 5_000_000;
 
 /// Answers about models that are being edited.
@@ -47,15 +46,15 @@ pub struct Live<'a> {
     examples: Vec<(&'a str, &'a str)>,
 }
 
-/// Why a call has no answer. A model with mistakes has one: the list of them.
+/// Why a call has no answer. A model with errors has one: the list of them.
 #[derive(Clone, Debug, PartialEq, Eq)]
 #[non_exhaustive]
 pub enum LiveError {
     /// There is no call of that name.
     Unknown(String),
-    /// The request does not go with the call: why, in a sentence.
+    /// The request does not match the call; the reason, in a sentence.
     Request(String),
-    /// A fault of the program itself.
+    /// An error of the program itself.
     Internal(String),
 }
 
@@ -71,8 +70,8 @@ impl fmt::Display for LiveError {
 impl std::error::Error for LiveError {}
 
 impl<'a> Live<'a> {
-    /// Answers for files that may name these measurements; `examples` are model files to start from,
-    /// by name.
+    /// Answers for files that may name these measurements; `examples` are model files as starting
+    /// points, by name.
     pub fn new(
         catalogue: &'a Catalogue,
         examples: impl IntoIterator<Item = (&'a str, &'a str)>,
@@ -85,7 +84,7 @@ impl<'a> Live<'a> {
     ///
     /// | call | request | answer |
     /// |---|---|---|
-    /// | `answer` | `text`, `name`, `edits`, `trials`, `full`, `narrow`, `output`, `row`, `lang` | mistakes; or inputs, outputs, results, parts of the page |
+    /// | `answer` | `text`, `name`, `edits`, `trials`, `full`, `narrow`, `output`, `row`, `lang` | errors; or inputs, outputs, results, parts of the page |
     /// | `audit` | `text`, `name`, `lang` | `html`: what the Type B assumptions decide |
     /// | `edit` | `text`, `edits` | `text` |
     /// | `reshape` | `text`, `path`, `distribution` | `text` with another distribution of an input |
@@ -95,7 +94,7 @@ impl<'a> Live<'a> {
     /// | `import` | `name`, `base64` | `text`, `notes` |
     ///
     /// # Errors
-    /// A call that there is not, or a request that does not go with it.
+    /// The call does not exist, or the request does not match it.
     pub fn call(
         &self,
         name: &str,
@@ -134,12 +133,12 @@ mod edit_call {
     }
 }
 
-/// A request as a call takes it.
+/// Parses the request of a call.
 fn asked<T: DeserializeOwned>(request: &str) -> Result<T, LiveError> {
     serde_json::from_str(request).map_err(|why| LiveError::Request(format!("the request: {why}")))
 }
 
-/// A text of a size that can be edited.
+/// Checks the size of a text.
 fn limited(text: &str) -> Result<&str, LiveError> {
     if text.len() <= MOST_TEXT {
         return Ok(text);

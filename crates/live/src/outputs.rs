@@ -1,4 +1,4 @@
-//! What was found of each output: figures for the headline, and the parts of the report's page.
+//! The results of each output: values for the headline, and the parts of the report's page.
 
 use gumption_engine::decimal::significant;
 use gumption_engine::model::Output;
@@ -8,7 +8,7 @@ use gumption_engine::task::{Settings, Task};
 use gumption_report::{OutputParts, PageParts, ResultStatement, plain};
 use serde_json::{Value as Json, json};
 
-/// One entry for each output, of a row of conditions.
+/// One entry for each output in a row of conditions.
 pub(crate) fn results(
     task: &Task,
     evaluation: &Evaluation,

@@ -1,12 +1,12 @@
-//! The page: one file of markup, a style sheet, scripts as modules. Nothing of it is made while it is
-//! served, and nothing is loaded from elsewhere.
+//! The page: one file of markup, a style sheet, scripts as modules. All files are static, and
+//! nothing is loaded from elsewhere.
 
 /// A file of the page.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct PageAsset {
-    /// Its name: the page itself is `index.html`, everything else is looked for in `assets/`.
+    /// Its name: the page itself is `index.html`, everything else is in `assets/`.
     pub name: &'static str,
-    /// What it is, for the header `Content-Type`.
+    /// Its media type, for the header `Content-Type`.
     pub content_type: &'static str,
     /// Its text.
     pub text: &'static str,
@@ -52,7 +52,7 @@ pub fn all() -> Vec<PageAsset> {
 mod tests {
     use super::*;
 
-    /// What the markup and the scripts name is there, and what is there is named.
+    /// Every asset that the markup and the scripts name exists, and every existing one is named.
     #[test]
     fn every_asset_is_named_and_every_name_is_an_asset() {
         let names: Vec<&str> = all().iter().map(|asset| asset.name).collect();
@@ -79,7 +79,7 @@ mod tests {
         }
     }
 
-    /// Every text that the page asks for is there in every language, and no other.
+    /// Every text that the page uses exists in every language, and there are no others.
     #[test]
     fn all_languages_say_the_same() {
         let keys = |name: &str| {
@@ -87,7 +87,7 @@ mod tests {
             let top = text.split("\n  key: {").next().unwrap();
             let mut keys: Vec<String> = Vec::new();
             let mut rest = top;
-            // a key is a word before a colon that follows a bracket, a comma or a line's beginning
+            // a key is a word before a colon, after a bracket, a comma or the beginning of a line
             while let Some(at) = rest.find(": ") {
                 let word: String = rest[..at]
                     .chars()

@@ -1,4 +1,4 @@
-//! Another distribution for an input: what was typed is kept where it has a meaning there.
+//! Changes the distribution of an input, and keeps typed values that have a meaning there.
 
 use std::path::Path;
 
@@ -21,12 +21,12 @@ pub(crate) struct Asked {
     distribution: String,
 }
 
-/// What a key of a distribution says.
+/// The meaning of a key of a distribution.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) enum Role {
     /// Where it lies.
     Centre,
-    /// How wide it is: whatever the measure, the number that was typed is taken over.
+    /// Its width: whatever the parameter, the typed number is kept.
     Width,
     /// Its limits.
     Lower,
@@ -42,7 +42,7 @@ pub(crate) enum Role {
 }
 
 impl Role {
-    /// What a key begins with, by where the input lies and how wide it is.
+    /// The initial value of a key, from the location and the width of the input.
     fn value(self, centre: Option<f64>, width: Option<f64>) -> Json {
         let both = centre.zip(width);
         let figure = match self {
@@ -92,7 +92,7 @@ pub(crate) fn needed(name: &str) -> &'static [(&'static str, Role)] {
     }
 }
 
-/// Keys that say where a distribution lies, and how wide it is.
+/// Keys for the location and the width of a distribution.
 const CENTRES: [&str; 4] = ["mean", "value", "mode", "count"];
 const WIDTHS: [&str; 6] = ["std", "half_width", "semi_range", "scale", "expanded", "std_low"];
 
@@ -127,7 +127,7 @@ pub(crate) fn reshaped(files: FileReader<'_>, asked: &Asked) -> Result<Json, Liv
         path
     };
     let mut edits = vec![Edit::set(step("distribution"), json!(shape.name))];
-    // limits stay where the new shape has them as well
+    // limits are kept if the new distribution has them too
     let keeps_limits = has("lower") && has("upper") && shape.keys.contains(&"lower");
     let mut taken: Vec<String> = Vec::new();
     for (key, role) in needed(shape.name) {
@@ -151,7 +151,7 @@ pub(crate) fn reshaped(files: FileReader<'_>, asked: &Asked) -> Result<Json, Liv
         let value = role.value(centre, width);
         edits.push(Edit::set(step(key), value));
     }
-    // what only the old shape has goes
+    // keys that only the old distribution has are removed
     let old = value("distribution").and_then(|name| known(&name));
     for key in old.map_or(&[][..], |old| old.keys) {
         let stays = shape.keys.contains(key) || taken.iter().any(|of| of == key);
@@ -163,14 +163,14 @@ pub(crate) fn reshaped(files: FileReader<'_>, asked: &Asked) -> Result<Json, Liv
     Ok(json!({ "text": made }))
 }
 
-/// A number as people write it: without the last digits of a sum.
+/// A number without the last digits due to rounding.
 fn plain_number(value: f64) -> Json {
     let text = gumption_engine::decimal::significant(value, 12);
     let short = text.parse::<f64>().ok().unwrap_or(value);
     serde_json::from_str(&Shortest(short).to_string()).unwrap_or(Json::Null)
 }
 
-/// An input that was a value in words, written out with its keys.
+/// An input that was a value in words, as an object with keys.
 fn written_out(
     files: FileReader<'_>,
     asked: &Asked,

@@ -208,7 +208,7 @@ fn a_row_of_a_sweep_is_shown_as_if_it_stood_alone() {
     assert_eq!((&alone["row_names"], &asked(&all, 7)["row"]), (&json!([]), &json!(0)));
 }
 
-/// Mistakes of files that are no models stand at their places, and of a model that a certificate names
+/// Errors of files that are no models stand at their places, and of a model that a certificate names
 /// under its name.
 #[test]
 fn mistakes_of_certificates_recipes_cases_and_tables_have_places() {

@@ -1,5 +1,5 @@
-//! The text of a file with the places of everything in it. Comments and trailing commas are borne, so
-//! that a text can be edited that the readers refuse.
+//! The text of a file with the positions of all values. Comments and trailing commas are tolerated,
+//! so that a text that the readers reject can still be edited.
 
 use std::fmt;
 
@@ -8,7 +8,7 @@ use jsonc_parser::common::Ranged;
 use jsonc_parser::{CollectOptions, ParseOptions, parse_to_ast};
 use serde::{Deserialize, Serialize};
 
-/// A step from a value to one inside of it.
+/// A step from a value to one inside it.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(untagged)]
 pub(crate) enum Step {
@@ -27,7 +27,7 @@ impl fmt::Display for Step {
     }
 }
 
-/// The root of a text, if it is one.
+/// The root of a text, if it can be parsed.
 pub(crate) fn parse(text: &str) -> Result<Value<'_>, String> {
     let parsed = parse_to_ast(text, &CollectOptions::default(), &ParseOptions::default());
     match parsed {
@@ -54,7 +54,7 @@ pub(crate) fn at<'v, 't>(root: &'v Value<'t>, path: &[Step]) -> Option<&'v Value
     })
 }
 
-/// The path to the innermost value, or the key of it, that a place of the text lies in.
+/// The path to the innermost value, or its key, at a position of the text.
 pub(crate) fn path_to(root: &Value<'_>, byte: usize) -> Vec<Step> {
     let mut path = Vec::new();
     let mut value = root;
