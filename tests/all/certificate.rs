@@ -1023,7 +1023,7 @@ fn certificate_files_are_checked() {
     for entry in fs::read_dir(root().join("models/certificates")).expect("the folder") {
         let path = entry.expect("an entry").path();
         let said = output(&["check", path.to_str().expect("a path")]);
-        assert!(said.contains("no mistakes found"), "{said}");
+        assert!(said.contains("no errors found"), "{said}");
     }
 }
 

@@ -112,7 +112,7 @@ fn what_cannot_be_planned_is_said() {
     assert!(target("U(y) <= 1 kg").contains("`1 kg`"));
     assert!(target("U(y) <= 0 mm").contains("above zero"));
     assert!(target("y < 7").contains("is written"));
-    assert!(target("U(y) <= 11 mm").contains("is met already: U(y) is 10 mm now"));
+    assert!(target("U(y) <= 11 mm").contains("is already met: U(y) is 10 mm now"));
     let costs = || wrong(&["--target", "U(y) <= 7 mm", "--cost", "cost.json"]);
     cost(r#"{"costs": {"a": {"cost": 1}}}"#);
     assert!(costs().contains(

@@ -112,7 +112,7 @@ fn deep_texts_are_refused() {
     let folder = Folder::new();
     for (open, close) in [("[", "]"), ("{\"a\":", "}")] {
         let deep = format!("{}1{}", open.repeat(100_000), close.repeat(100_000));
-        folder.refused(&deep, &[], "more than 127 lists and objects stand inside each other");
+        folder.refused(&deep, &[], "more than 127 lists and objects are nested");
     }
     let inside = "parentheses, functions, signs or powers inside each other";
     for (open, close) in [("(", ")"), ("sin(", ")"), ("-", ""), ("x^", "")] {

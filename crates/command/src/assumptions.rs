@@ -88,7 +88,7 @@ impl Assumptions {
         let place = self.answer.open(&self.model.paths(&file))?;
         let stop = signals::stop_flag();
         let Some(found) = self.audit(&file, &task, question, &stop)? else {
-            say("gumption: interrupted; part of an audit is no answer, and none is given\n");
+            say("gumption: interrupted; an incomplete audit gives no answer\n");
             return Ok(Exit::Interrupted);
         };
         warnings.extend(found.warnings.iter().cloned());
@@ -118,7 +118,7 @@ impl Assumptions {
             (None, Trials::Adaptive | Trials::Fixed(0)) => USUAL,
             (None, Trials::Fixed(trials)) if trials < FEWEST => {
                 let text = format!(
-                    "{trials} trials are too few to tell how assumptions move the result; {FEWEST} \
+                    "{trials} trials are too few to detect the effect of assumptions; {FEWEST} \
                      are made"
                 );
                 warnings.push(Warning::new("few-trials", "", text));

@@ -303,8 +303,8 @@ fn notes(file: &CertificateFile, issued: &Issued) -> Vec<Warning> {
         {
             let row = number + 1;
             let text = format!(
-                "row {row}: its figures are those of the trials, whose last digit depends on the \
-                 seed: {why}"
+                "row {row}: its values come from the trials, so that their last digit depends on \
+                 the seed: {why}"
             );
             notes.push(Warning::new("digits-of-trials", format!("row {row}"), text));
         }
@@ -361,7 +361,7 @@ fn not_stated(certificate: &Asked) -> Option<Warning> {
         .map(|(key, _)| format!("`{key}`"))
         .collect();
     let text = format!(
-        "the certificate does not say what ISO/IEC 17025:2017, 7.8.2.1 and 7.8.4.1 ask for: {}",
+        "the certificate lacks items required by ISO/IEC 17025:2017, 7.8.2.1 and 7.8.4.1: {}",
         missing.join(", ")
     );
     (!missing.is_empty()).then(|| Warning::new("not-stated", "certificate".to_owned(), text))

@@ -101,7 +101,7 @@ impl Check {
                 return Err(Failure::Argument("`check` answers as table or json".into()));
             }
             Format::Table if right => {
-                format!("{}: no mistakes found\n", plain(&self.file.display().to_string()))
+                format!("{}: no errors found\n", plain(&self.file.display().to_string()))
             }
             Format::Table => {
                 // a list of errors is an error message wherever it is sent

@@ -91,13 +91,13 @@ impl Compare {
         let place = self.answer.open(&read)?;
         let found = match table {
             ComparisonTable::Pairs(_) if self.estimator.is_some() => {
-                let message = "`--estimator` is of laboratories: a table with columns label, x, U; this \
-                               one has results two by two";
+                let message = "`--estimator` is for laboratories: a table with columns label, x, \
+                               U; this one has pairs of results";
                 return Err(Failure::Argument(message.to_owned()));
             }
             ComparisonTable::Laboratories { .. } if self.rounding => {
-                let message = "`--rounding` is of results two by two: a table with columns label, x1, U1, \
-                               x2, U2; this one has laboratories";
+                let message = "`--rounding` is for pairs of results: a table with columns label, \
+                               x1, U1, x2, U2; this one has laboratories";
                 return Err(Failure::Argument(message.to_owned()));
             }
             ComparisonTable::Pairs(pairs) => {

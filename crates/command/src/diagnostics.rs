@@ -26,16 +26,14 @@ pub(crate) fn render(diagnostics: &Diagnostics, colours: bool) -> String {
 pub(crate) fn command(kind: &DiagnosticKind) -> &'static str {
     match kind {
         DiagnosticKind::Outside { .. } => "; `--allow-path DIR` allows another folder",
-        DiagnosticKind::SavedChanged { .. } => ", or take it as it is with `--accept-changed`",
+        DiagnosticKind::SavedChanged { .. } => ", or accept it with `--accept-changed`",
         DiagnosticKind::MissingKey { key: "observations", .. } => {
             "; a model file without them is for `gumption run`"
         }
-        DiagnosticKind::NoModel => "; `gumption models` lists these",
-        DiagnosticKind::UnknownModel { nearest: None, .. } => {
-            "; `gumption models` lists those that there are"
-        }
+        DiagnosticKind::NoModel => "; `gumption models` lists typed models",
+        DiagnosticKind::UnknownModel { nearest: None, .. } => "; `gumption models` lists them",
         DiagnosticKind::UnknownEffect { nearest: None, .. } => {
-            "; `gumption models --effects` lists those that there are"
+            "; `gumption models --effects` lists them"
         }
         DiagnosticKind::NotResult { .. } => "; `gumption run --save` writes one",
         _ => "",

@@ -68,8 +68,8 @@ impl Diff {
                 let ModelOrResult::Model(model) = file else {
                     let name = file.name();
                     let message = format!(
-                        "`{name}` is a saved result, whose expanded uncertainties have the coverage \
-                         that it was saved with; `--k` and `--coverage` are for model files"
+                        "`{name}` is a saved result, whose coverage was fixed when it was saved; \
+                         `--k` and `--coverage` are for model files"
                     );
                     return Err(Failure::Argument(message));
                 };
@@ -88,7 +88,7 @@ impl Diff {
         }
         let difference = file::difference(&first, &second, &self.threads.control(&stop))?;
         if stop.load(Ordering::Relaxed) {
-            say("gumption: interrupted; no answer is given\n");
+            say("gumption: interrupted; there is no answer\n");
             return Ok(Exit::Interrupted);
         }
         let names = [&first, &second].map(ModelOrResult::name);

@@ -63,8 +63,8 @@ impl Evaluated {
         self.check_format(task)?;
         let decides = task.model.outputs.iter().any(|output| output.tolerance.is_some());
         if self.fail && task.settings.trials == Trials::Fixed(0) && !decides {
-            let reason = "`--fail` has nothing to judge by without trials, but their number is 0, \
-                          and no output has a tolerance";
+            let reason = "`--fail` needs Monte Carlo trials or a tolerance, but the number of \
+                          trials is 0, and no output has a tolerance";
             return Err(Failure::Argument(reason.to_owned()));
         }
         Ok(())
@@ -152,8 +152,8 @@ impl Evaluated {
     fn judged(&self, task: &Task, evaluation: &Evaluation) -> Result<Exit, Failure> {
         let judgements = judgements(task, evaluation);
         if judgements.iter().all(|judgement| judgement.verdict.is_none()) {
-            let reason = "`--fail` has nothing to judge: no output has a GUM interval to compare \
-                          with, or tolerance limits";
+            let reason =
+                "`--fail` has nothing to check: no output has a GUM interval or tolerance limits";
             return Err(Failure::Argument(reason.to_owned()));
         }
         let against: Vec<&Judgement> =

@@ -71,8 +71,8 @@ fn command_of(kind: TextKind) -> Result<&'static str, NotExported> {
         TextKind::Recipe => "observe",
         TextKind::Comparison => "compare",
         _ => {
-            let message = "there is nothing to be evaluated in this file: it is neither a model nor a \
-                           case, a certificate, a recipe or a table of results";
+            let message = "this file contains nothing to evaluate: it is not a model, a case, a \
+                           certificate, a recipe or a table of results";
             return Err(NotExported::Content(message.to_owned()));
         }
     })
@@ -100,14 +100,14 @@ impl CommandLine {
         let Some((_, extension, content_type)) = FORMATS.iter().find(|(name, ..)| *name == format)
         else {
             let names = FORMATS.map(|(name, ..)| name).join(", ");
-            let message = format!("there is no format `{format}`; there are {names}");
+            let message = format!("there is no format `{format}`; the formats are {names}");
             return Err(NotExported::Format(message));
         };
         // they need a clock and a disk
         if cfg!(target_family = "wasm") && ["xlsx", RESULT].contains(&format) {
             let message = format!(
-                "the format `{format}` is not written in a browser alone, but by `gumption open` and on \
-                 the command line"
+                "the format `{format}` needs `gumption open` or the command line; the browser \
+                 alone cannot write it"
             );
             return Err(NotExported::Format(message));
         }
@@ -138,8 +138,8 @@ impl CommandLine {
             _ => NotExported::Content(failure.to_string()),
         })?;
         if answered.exit == Exit::Interrupted {
-            let message = "it was stopped before it was done: it takes longer than the page waits, \
-                           and not on the command line";
+            let message = "it was stopped before it was done: it takes longer than the page waits; \
+                           use the command line, which has no limit";
             return Err(NotExported::Stopped(message.to_owned()));
         }
         Ok(answered.answer)
@@ -189,8 +189,8 @@ impl CommandLine {
             return Ok(());
         }
         Err(NotExported::Content(format!(
-            "{name}: {asked:.1e} trials are asked for, and the page makes at most {most:.0e}; take \
-             fewer, or use the command line",
+            "{name}: the file asks for {asked:.1e} trials, but the page makes at most {most:.0e}; \
+             use fewer, or the command line",
             asked = asked as f64,
             most = MOST_TRIALS as f64,
         )))

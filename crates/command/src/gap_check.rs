@@ -122,7 +122,7 @@ impl GapCheck {
             None => self.made(program, &file, seed, range.clone(), &stop)?,
         };
         let Some(checked) = checked else {
-            say("gumption: interrupted; part of a check is no answer, and none is given\n");
+            say("gumption: interrupted; an incomplete test gives no answer\n");
             return Ok(Exit::Interrupted);
         };
         if let Some(partial) = partial {
@@ -158,7 +158,7 @@ impl GapCheck {
             Some(folder) => folder,
             None => {
                 let made = tempfile::tempdir().map_err(|error| {
-                    Failure::System(format!("cannot make a temporary folder: {error}"))
+                    Failure::System(format!("cannot create a temporary folder: {error}"))
                 })?;
                 kept = Temporary::new(made.keep());
                 kept.path()
@@ -200,7 +200,7 @@ impl GapCheck {
     ) -> Result<(), Failure> {
         let make = |path: &Path| {
             std::fs::create_dir_all(path).map_err(|error| {
-                Failure::System(format!("cannot make the folder `{}`: {error}", path.display()))
+                Failure::System(format!("cannot create the folder `{}`: {error}", path.display()))
             })
         };
         let sealed = folder.join("sealed");

@@ -63,7 +63,7 @@ fn of_command(name: &str) -> Result<String, Failure> {
     let near = nearest(name, commands.chain(topics));
     let hint = match near {
         Some(near) => format!("did you mean `{near}`?"),
-        None => "`gumption help` lists what there is".to_owned(),
+        None => "`gumption help` lists all topics".to_owned(),
     };
     Err(Failure::Argument(format!("there is no help on `{name}`; {hint}")))
 }

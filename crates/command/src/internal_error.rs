@@ -21,10 +21,8 @@ pub(super) fn watch() {
         if cfg!(panic = "unwind") && SURVIVED.load(Ordering::Relaxed) {
             return;
         }
-        say(
-            "error: this is a mistake of the program, not of what it was given; please report the lines \
-             above with the command and its files\n",
-        );
+        say("error: this is an error of the program, not of your files; please report the lines \
+             above with the command and its files\n");
         signals::end(INTERNAL);
     }));
 }

@@ -277,8 +277,8 @@ fn misspelt(error: &clap::Error) -> Option<String> {
     let near = all_nearest(name, names.iter().copied());
     let hint = if Path::new(name).is_file() {
         format!(
-            "it is a file: a command stands in front of it, such as `gumption run {name}`; \
-             `gumption check {name}` tells its mistakes"
+            "it is a file: write a command before it, such as `gumption run {name}`; `gumption \
+             check {name}` lists its errors"
         )
     } else if let Some(question) = did_you_mean(&near) {
         format!("{question} `gumption --help` lists all")

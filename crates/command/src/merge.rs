@@ -38,8 +38,8 @@ impl Merge {
         let run = folder.run()?;
         if run.version != env!("CARGO_PKG_VERSION") {
             return Err(Failure::Argument(format!(
-                "the parts in `{}` were made by gumption {}, and this is {}; versions may differ in \
-                 the last digits, so merge them with that version",
+                "the parts in `{}` were made by gumption {}, but this is {}; versions may differ \
+                 in the last digits, so use that version to merge",
                 self.folder.display(),
                 run.version,
                 env!("CARGO_PKG_VERSION")
@@ -72,7 +72,7 @@ impl Merge {
                 folder.write_next(&run, &next)?;
                 let path = self.folder.join(NEXT_PASS);
                 self.evaluated.answer.note([format!(
-                    "pass {number} over the blocks is needed: make each part again with `--pass {}`, \
+                    "pass {number} over the blocks is needed: repeat each part with `--pass {}`, \
                      and merge again",
                     path.display()
                 )

@@ -86,8 +86,9 @@ impl New {
             .equation
             .iter()
             .any(|equation| equation.split_once('=').is_some_and(|(left, _)| left.trim() == name));
-        (is_output && self.unit.is_empty())
-            .then(|| format!("`{name}` is {expected_as}; say its unit: `--unit {name}={expected}`"))
+        (is_output && self.unit.is_empty()).then(|| {
+            format!("`{name}` is {expected_as}; state its unit: `--unit {name}={expected}`")
+        })
     }
 
     /// The draft given by the options.
@@ -103,7 +104,7 @@ impl New {
                 let near = nearest(name, names.iter().copied());
                 let hint =
                     near.map_or_else(String::new, |near| format!("; did you mean `{near}`?"));
-                return Err(Failure::Argument(format!("no equation gives `{name}`{hint}")));
+                return Err(Failure::Argument(format!("no equation defines `{name}`{hint}")));
             }
             unit_of(unit).map_err(Failure::Argument)?;
             draft.outputs.push((name.to_owned(), unit.to_owned()));
@@ -137,16 +138,16 @@ impl New {
     fn asked(&self) -> Result<Draft, Failure> {
         if !(self.input.is_empty() && self.unit.is_empty()) {
             let message =
-                "--input and --unit go with --equation; without it everything is asked for";
+                "--input and --unit require --equation; without it the command asks for everything";
             return Err(Failure::Argument(message.to_owned()));
         }
         let mut ask = Questions { answers: io::stdin().lock() };
         let title = match &self.title {
             Some(title) => title.clone(),
-            None => ask.line("What is measured, in a line?")?,
+            None => ask.line("Title:")?,
         };
         let mut draft = Draft { title: Some(title), ..Draft::default() };
-        say("Equations, NAME = FORMULA, each on a line; an empty line ends them.\n");
+        say("Equations, NAME = FORMULA, one per line; finish with an empty line.\n");
         loop {
             let line = ask.line("equation:")?;
             if line.is_empty() && !draft.equations.is_empty() {
@@ -157,10 +158,9 @@ impl New {
             }
         }
         if let Some((last, _)) = draft.equations.last().cloned() {
-            let unit = ask
-                .until(&format!("unit of {last}, which is reported (1 for a number):"), |text| {
-                    unit_of(text).map(|()| text.to_owned())
-                })?;
+            let unit = ask.until(&format!("Unit of {last} (1 if dimensionless):"), |text| {
+                unit_of(text).map(|()| text.to_owned())
+            })?;
             draft.outputs.push((last, unit));
         }
         for name in draft.quantities() {
@@ -191,7 +191,8 @@ impl<R: BufRead> Questions<R> {
         let read = self.answers.read_line(&mut line);
         match read {
             Ok(0) => Err(Failure::Argument(format!(
-                "the answers ended at \"{question}\"; `gumption new --equation ...` takes them as options"
+                "the answers ended at \"{question}\"; `gumption new --equation ...` takes the \
+                 answers as options"
             ))),
             Ok(_) => Ok(line.trim().to_owned()),
             Err(error) => Err(Failure::System(format!("cannot read the answers: {error}"))),
@@ -218,7 +219,8 @@ impl Draft {
     fn equation(&mut self, text: &str) -> Result<(), String> {
         let form = || {
             format!(
-                "`{text}` is no equation; write NAME = FORMULA, such as `power = voltage^2/resistance`"
+                "`{text}` is not an equation; write NAME = FORMULA, such as `power = \
+                 voltage^2/resistance`"
             )
         };
         let (name, formula) = text.split_once('=').ok_or_else(form)?;
@@ -272,7 +274,15 @@ impl Draft {
     /// The file, with remarks under keys that programs ignore.
     fn text(&self) -> String {
         let mut file = Map::new();
-        file.insert("$comment".into(), json!("Keys that begin with $ are remarks. `gumption help model` lists all keys, `gumption help distributions` what an input may be. `about` of an input says where it is known from; certificates print its first sentence as the meaning of the symbol."));
+        file.insert(
+            "$comment".into(),
+            json!(
+                "Keys that begin with $ are remarks. `gumption help \
+                     model` lists all keys, `gumption help distributions` the kinds of inputs. \
+                     `about` of an input states its source; certificates print its first sentence \
+                     as the meaning of the symbol."
+            ),
+        );
         file.insert("format".into(), json!(1));
         if let Some(title) = self.title.as_ref().filter(|title| !title.is_empty()) {
             file.insert("title".into(), json!(title));
@@ -320,7 +330,7 @@ fn described(said: &str) -> Result<Map<String, Value>, String> {
     keys.insert("distribution".into(), json!(shape.name));
     for part in parts {
         let Some((key, value)) = part.split_once('=') else {
-            return Err(format!("`{part}` is no KEY=VALUE"));
+            return Err(format!("`{part}` is not of the form KEY=VALUE"));
         };
         let (key, value) = (key.trim(), value.trim());
         if !shape.keys.contains(&key) && key != "about" {
@@ -356,6 +366,6 @@ fn unit_of(text: &str) -> Result<(), String> {
 fn halves<'a>(text: &'a str, option: &str, form: &str) -> Result<(&'a str, &'a str), Failure> {
     let (name, said) = text
         .split_once('=')
-        .ok_or_else(|| Failure::Argument(format!("{option} {text}: it has the form {form}")))?;
+        .ok_or_else(|| Failure::Argument(format!("{option} {text}: write it as {form}")))?;
     Ok((name.trim(), said.trim()))
 }

@@ -202,7 +202,8 @@ impl Threads {
         if let Some(reason) = parallel::refused().filter(|_| !cfg!(target_family = "wasm")) {
             SAID.call_once(|| {
                 say_line(&format!(
-                    "warning: the system gives no threads ({}): one does all, and the answer is the \
+                    "warning: the system provides no threads ({}): one thread does all the work, \
+                     and the answer is the \
                      same",
                     plain(reason)
                 ));
@@ -453,7 +454,7 @@ pub(super) fn memory(text: &str) -> Result<usize, String> {
             Err("at least 1 MiB is needed for kept values".to_owned())
         }
         Some(bytes) if bytes <= MOST_MEMORY => Ok(bytes),
-        _ => Err("at most 1024G (1 TiB) can be asked for".to_owned()),
+        _ => Err("at most 1024G (1 TiB) is possible".to_owned()),
     }
 }
 

@@ -128,8 +128,8 @@ fn check(asked: &[Asked<'_>], read: &[PathBuf]) -> Result<(), Failure> {
         .collect();
     if let Some((option, ..)) = wanted.iter().find(|(_, path, _)| is_standard(path)) {
         let reason = format!(
-            "`{option} -`: the answer alone goes to standard output; name a file, `./-` for one of that \
-             name"
+            "`{option} -`: only the answer goes to standard output; name a file (`./-` for a file \
+             called `-`)"
         );
         return Err(Failure::Argument(reason));
     }
@@ -137,7 +137,7 @@ fn check(asked: &[Asked<'_>], read: &[PathBuf]) -> Result<(), Failure> {
         let shown = shown(path);
         if read.iter().filter_map(|read| Identity::of(read)).any(|read| read == *identity) {
             let reason = format!(
-                "`{option} {shown}` would replace a file that the answer is made from; name another"
+                "`{option} {shown}` would overwrite an input of the answer; name another file"
             );
             return Err(Failure::Argument(reason));
         }

@@ -145,7 +145,8 @@ impl<'a> PartedRun<'a> {
         let digest = pass.header(self.run, SharedFileKind::Pass).pass_digest;
         if header.pass != number || header.pass_digest != digest {
             let reason = format!(
-                "this part is of another pass over the blocks (number {}, and the run is at number \
+                "this part belongs to another pass over the blocks (number {}, but the run is at \
+                 number \
                  {number}); make it again{again}",
                 header.pass,
             );
@@ -153,7 +154,10 @@ impl<'a> PartedRun<'a> {
         }
         let all = self.blocks()?;
         if range.is_empty() || range.end > all {
-            return Err(refused(name, &format!("it has blocks that the run of {all} has not")));
+            return Err(refused(
+                name,
+                &format!("it has blocks that the run of {all} does not have"),
+            ));
         }
         Ok(Some(range.clone()))
     }
@@ -189,7 +193,7 @@ impl PartedMerging<'_> {
     pub fn add(&mut self, name: &dyn Display, file: &[u8]) -> Result<Range<u64>, Failure> {
         let (header, content) = shared_file(file).map_err(|error| refused(name, &error))?;
         let range = self.of.range(self.pass, name, &header, &"")?;
-        let range = range.ok_or_else(|| refused(name, &"it is no part of this pass"))?;
+        let range = range.ok_or_else(|| refused(name, &"it is not a part of this pass"))?;
         self.merging.add(range.clone(), content).map_err(|error| refused(name, &error))?;
         Ok(range)
     }

@@ -55,11 +55,11 @@ impl Blocks {
     pub(super) fn of(&self, all: u64, (option, what): (&str, &str)) -> Result<Range<u64>, Failure> {
         match *self {
             Self::Range(from, _) if from >= all => Err(Failure::Argument(format!(
-                "`{option}`: the run has {all} {what} (0..{all}), none of them from {from} on"
+                "`{option}`: the run has only {all} {what} (0..{all}), none from {from} on"
             ))),
             Self::Range(from, to) => Ok(from..to.min(all)),
             Self::Share(part, of) if of > all => Err(Failure::Argument(format!(
-                "`{option} {part}/{of}`: the run has no more than {all} {what} to share"
+                "`{option} {part}/{of}`: the run has only {all} {what} to share"
             ))),
             Self::Share(part, of) => {
                 let at = |k: u64| (u128::from(all) * u128::from(k) / u128::from(of)) as u64;
@@ -140,8 +140,9 @@ impl PartsFolder {
     pub fn open(path: &Path) -> Result<Self, Failure> {
         if path.is_file() {
             return Err(Failure::Argument(format!(
-                "`{0}` is a file: the parts of a run lie in a folder, into which `gumption run MODEL \
-                 --blocks … --partial FILE` writes them; `gumption check {0}` tells what the file is",
+                "`{0}` is a file, but the parts of a run are in a folder, into which `gumption run \
+                 MODEL --blocks … --partial FILE` writes them; `gumption check {0}` says what the \
+                 file is",
                 path.display()
             )));
         }
@@ -177,7 +178,7 @@ impl PartsFolder {
     pub fn made(path: &Path) -> Result<Self, Failure> {
         fs::create_dir_all(path).map_err(|error| {
             let path = plain(&path.display().to_string());
-            Failure::System(format!("cannot make the folder `{path}`: {error}"))
+            Failure::System(format!("cannot create the folder `{path}`: {error}"))
         })?;
         Self::open(path)
     }
@@ -198,7 +199,8 @@ impl PartsFolder {
                 others => format!(" ({others} other files)"),
             };
             return Err(Failure::Argument(format!(
-                "the folder `{}` holds no part of a run{others}; make them with `gumption run MODEL \
+                "the folder `{}` contains no part of a run{others}; make parts with `gumption run \
+                 MODEL \
                  --blocks A..B --partial FILE`",
                 self.path.display()
             )));
@@ -244,7 +246,7 @@ impl PartsFolder {
             let [(first, a), (second, b)] = pair else { continue };
             if b.start < a.end {
                 let reason = format!(
-                    "the blocks {}..{} are in `{}` too; leave one of the two",
+                    "the blocks {}..{} are also in `{}`; remove one of the two",
                     b.start,
                     a.end.min(b.end),
                     first.display()
@@ -419,7 +421,7 @@ pub(super) fn resume(
             let Some(part) = run.part(&pass, range, control)? else {
                 bar.finish_and_clear();
                 let path = plain(&path.display().to_string());
-                say(&format!("gumption: interrupted; what was made is in `{path}`\n"));
+                say(&format!("gumption: interrupted; the parts made so far are in `{path}`\n"));
                 return Ok(None);
             };
             run.keep(path, &part)?;

@@ -94,7 +94,7 @@ impl Planning {
             costs.map_or((Costs::Equal, None), |CostFile { costs, text }| (costs, Some(text)));
         let question = PlanQuestion { target, costs, drift };
         let Some(found) = self.plan(&file, &task, &question, &stop)? else {
-            say("gumption: interrupted; part of a plan is no answer, and none is given\n");
+            say("gumption: interrupted; an incomplete plan gives no answer\n");
             return Ok(Exit::Interrupted);
         };
         let mut provenance = run::provenance(&file.source.text, &file.files);
@@ -164,28 +164,29 @@ fn said(error: &NoPlan, task: &Task, question: &PlanQuestion) -> String {
     let most = report::wanted(&target, output);
     match error {
         NoPlan::Met(now) => format!(
-            "the target {kind}({name}) <= {most} is met already: {kind}({name}) is {} now",
+            "the target {kind}({name}) <= {most} is already met: {kind}({name}) is {} now",
             value(*now)
         ),
         NoPlan::MetByPropagation { figure, by_trials, instead, excess } => {
             let advice = match excess {
                 Some(excess) => report::excess_text(excess, task, target),
                 None => format!(
-                    "plan for {kind}({name}) <= {}, with which the trials come to about the target",
+                    "plan for {kind}({name}) <= {}, for which the trials approximately meet the \
+                     target",
                     value(*instead)
                 ),
             };
             format!(
-                "the target {kind}({name}) <= {most} is met by the law of propagation, which plans ({}), \
-                 but the trials give {}, as `gumption run` shows; {advice}",
+                "the target {kind}({name}) <= {most} is met by the law of propagation ({}), which \
+                 is used for planning, but the trials give {}, as `gumption run` shows; {advice}",
                 value(*figure),
                 value(*by_trials)
             )
         }
         NoPlan::Unreachable(least) => {
             let said = format!(
-                "the target {kind}({name}) <= {most} cannot be reached: with every improvement that {} \
-                 {kind}({name}) is still {}",
+                "the target {kind}({name}) <= {most} cannot be reached: {kind}({name}) is still \
+                 {1} with every improvement that {0}",
                 match question.costs {
                     Costs::Equal => "can be planned",
                     _ => "the file of costs has",

@@ -97,7 +97,7 @@ impl Run {
         let mut task = file.task.clone();
         self.settings(&mut task);
         if self.rule.is_some() && task.settings.trials != Trials::Adaptive {
-            let reason = "`--rule` is about adaptive runs; add `--trials adaptive`";
+            let reason = "`--rule` is for adaptive runs; add `--trials adaptive`";
             return Err(Failure::Argument(reason.to_owned()));
         }
         let stop = signals::stop_flag();

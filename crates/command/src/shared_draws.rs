@@ -64,13 +64,13 @@ impl SharedCheck {
         } else if self.case_sha256 != other.case_sha256 {
             "are of another case".to_owned()
         } else if self.files != other.files {
-            "are of a case whose files had other contents".to_owned()
+            "belong to a case whose files had other contents".to_owned()
         } else if self.seed != other.seed {
             format!("have the seed {}, not {}", other.seed, self.seed)
         } else if self.draws != other.draws {
-            format!("are of a check of {} draws, not {}", other.draws, self.draws)
+            format!("belong to a test of {} draws, not {}", other.draws, self.draws)
         } else if self.noise != other.noise {
-            "have a noise that was drawn otherwise (`--noise`)".to_owned()
+            "have another kind of noise (`--noise`)".to_owned()
         } else {
             return None;
         })
@@ -89,7 +89,7 @@ impl SharedCheck {
         // numbers that JSON does not have would be lost
         let again = serde_json::from_str::<Part>(&line).is_ok_and(|of| of.checked == part.checked);
         if !again {
-            let reason = "a draw has a figure that is not finite, so that it cannot be carried";
+            let reason = "a draw has a value that is not finite, so it cannot be stored";
             return Err(Failure::System(reason.to_owned()));
         }
         let digest = sha256(line.as_bytes());
@@ -116,7 +116,10 @@ impl SharedCheck {
         }
         let [start, end] = part.range;
         if start >= end || end > self.draws || part.checked.len() as u64 != end - start {
-            return Err(refuse(&format!("it has draws that the check of {} has not", self.draws)));
+            return Err(refuse(&format!(
+                "it has draws that the test of {} does not have",
+                self.draws
+            )));
         }
         Ok(Some((start..end, part.checked)))
     }
@@ -146,7 +149,7 @@ impl SharedCheck {
             let [(first, a), (second, b)] = pair else { continue };
             if b.start < a.end {
                 let reason = format!(
-                    "the draws {}..{} are in `{}` too; leave one of the two",
+                    "the draws {}..{} are also in `{}`; remove one of the two",
                     b.start,
                     a.end.min(b.end),
                     first.display()

@@ -325,7 +325,7 @@ mod tests {
         let diagnostics = model("1,5\n2,5\n").unwrap_err().to_string();
         assert!(
             diagnostics.contains(
-                "/s.txt:1:1: `1,5` is no number: a decimal fraction is written with a point, `1.5`"
+                "/s.txt:1:1: `1,5` is not a number: write a decimal fraction with a point, `1.5`"
             ),
             "{diagnostics}"
         );

@@ -25,7 +25,7 @@ impl FileSource for HeldFiles {
         };
         if bytes.len() as u64 > most {
             let most = most / 1_000_000;
-            return Err(format!("it is larger than {most} MB, which this version takes at most"));
+            return Err(format!("it is larger than {most} MB, the most that this version reads"));
         }
         Ok(bytes.clone())
     }

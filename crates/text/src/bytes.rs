@@ -43,7 +43,7 @@ impl fmt::Display for ReadError {
             Self::Io(error) => error.fmt(f),
             Self::TooLarge { most } => {
                 let most = most / 1_000_000;
-                write!(f, "it is larger than {most} MB, which this version takes at most")
+                write!(f, "it is larger than {most} MB, the most that this version reads")
             }
         }
     }
@@ -81,7 +81,8 @@ pub fn text(bytes: &[u8]) -> Result<Cow<'_, str>, String> {
                             budget; of a table save the sheet as `CSV UTF-8`"
                         .to_owned();
                 }
-                "it is not UTF-8 text: save it as UTF-8, of a spreadsheet as `CSV UTF-8` or as a workbook"
+                "it is not UTF-8 text: save it as UTF-8, from a spreadsheet as `CSV UTF-8` or as a \
+                 workbook"
                     .to_owned()
             });
             return text.map(Cow::Borrowed);
@@ -118,7 +119,7 @@ mod tests {
         assert_eq!(of(&b"abc"[..], 3).unwrap(), b"abc");
         assert!(of(&b"abcd"[..], 3).is_err());
         let message = of(io::repeat(0), 2_000_000).unwrap_err().to_string();
-        assert_eq!(message, "it is larger than 2 MB, which this version takes at most");
+        assert_eq!(message, "it is larger than 2 MB, the most that this version reads");
     }
 
     #[test]

@@ -683,8 +683,8 @@ impl fmt::Display for DiagnosticKind {
             Self::Unreadable { message } => write!(f, "cannot read the file: {message}"),
             Self::Outside { name } => write!(
                 f,
-                "`{name}` lies outside of the folder of this file, below which the files that it names \
-                 are read"
+                "`{name}` is outside the folder of this file; a file may name only files below its \
+                 own folder"
             ),
             Self::Empty => f.write_str(
                 "the file is empty; a model file is a JSON object with `inputs`, `outputs` and \
@@ -692,7 +692,7 @@ impl fmt::Display for DiagnosticKind {
             ),
             Self::NotJson { message } => write!(f, "this is not JSON: {message}"),
             Self::NotFiniteInJson => {
-                f.write_str("NaN and infinity are no JSON numbers; a finite number is needed here")
+                f.write_str("NaN and infinity are not JSON numbers; write a finite number")
             }
             Self::NumberTooLarge => {
                 f.write_str("this number is larger than any in double precision (1.8e308)")
@@ -714,7 +714,7 @@ impl fmt::Display for DiagnosticKind {
                 let begin = if nearest.is_some() { " It" } else { "; it" };
                 write!(f, "{begin} is a key of {}", homes.join(" and of "))
             }
-            Self::DuplicateKey { key } => write!(f, "the key `{key}` stands here a second time"),
+            Self::DuplicateKey { key } => write!(f, "the key `{key}` occurs twice; remove one"),
             Self::MissingKey { key, what } => write!(f, "{what} needs the key `{key}`"),
             Self::NoDistribution { what, fitting } => {
                 write!(f, "{what} needs the key `distribution`")?;
@@ -736,9 +736,9 @@ impl fmt::Display for DiagnosticKind {
             Self::NoModel => f.write_str(
                 "a model file needs `equations` (formulas) or `model` (the name of a typed model)",
             ),
-            Self::TwoModels => f.write_str(
-                "a model file has either `equations` or `model`, not both; take one of them out",
-            ),
+            Self::TwoModels => {
+                f.write_str("a model file has either `equations` or `model`, not both; remove one")
+            }
             Self::UnknownModel { name, nearest } => {
                 write!(f, "there is no typed model `{name}`{}", meant(nearest.as_ref()))
             }
@@ -759,13 +759,13 @@ impl fmt::Display for DiagnosticKind {
             }
             Self::MissingInput { name, model, unit, known } => write!(
                 f,
-                "the model `{model}` needs the input `{name}` (unit `{unit}`), which is not here; its \
-                 inputs are {}",
+                "the model `{model}` needs the input `{name}` (unit `{unit}`), which is missing; \
+                 its inputs are {}",
                 list(known)
             ),
             Self::BadName { name, reason } => write!(f, "`{name}` cannot be a name: {reason}"),
             Self::NameTaken { name } => {
-                write!(f, "the name `{name}` is already that of another quantity of this file")
+                write!(f, "the name `{name}` is already used for another quantity of this file")
             }
             Self::NoSuchInput { name, nearest } => {
                 write!(f, "there is no input `{name}` in this file")?;
@@ -783,8 +783,9 @@ impl fmt::Display for DiagnosticKind {
             {
                 write!(
                     f,
-                    "`{name}` has the unit `{found}`, but must be {expected_as} such as `{expected}`; of a \
-                     level L in dB the ratio of amplitudes is 10^(L/20), that of powers 10^(L/10)"
+                    "`{name}` has the unit `{found}`, but must be {expected_as} such as \
+                     `{expected}`; for a level L in dB the ratio of amplitudes is 10^(L/20), the \
+                     ratio of powers 10^(L/10)"
                 )
             }
             Self::WrongDimension { name, found, found_as, expected, expected_as } => write!(
@@ -797,7 +798,7 @@ impl fmt::Display for DiagnosticKind {
                 write!(f, "`{name}` cannot be given in `{unit}`: it {misfit}")
             }
             Self::Value { key, found, reason } => {
-                write!(f, "the value `{found}` of `{key}` cannot be taken: {reason}")
+                write!(f, "the value `{found}` of `{key}` cannot be used: {reason}")
             }
             Self::UnknownDistribution { name, nearest, known } => {
                 write!(
@@ -808,7 +809,7 @@ impl fmt::Display for DiagnosticKind {
             }
             Self::Distribution { name, error } => write!(f, "`{name}`: {error}"),
             Self::Exclusive { first, second } => {
-                write!(f, "`{first}` and `{second}` cannot stand together; take one of them out")
+                write!(f, "`{first}` and `{second}` exclude each other; remove one")
             }
             Self::NoCoverage { name } => write!(
                 f,
@@ -816,7 +817,7 @@ impl fmt::Display for DiagnosticKind {
                  coverage probability `p`"
             ),
             Self::OnlyWith { key, with } => {
-                write!(f, "`{key}` says something about `{with}`, which is not here")
+                write!(f, "`{key}` needs the key `{with}`, which is missing")
             }
             Self::NotProbability { key, found } => {
                 let found = Shortest(*found);
@@ -846,21 +847,21 @@ impl fmt::Display for DiagnosticKind {
             }
             Self::OneLimitOfPeriod { name, missing, turn } => write!(
                 f,
-                "the `tolerance` of `{name}` needs `{missing}` as well: its values come round after \
-                 {turn} (`periodic`), so that each of them lies on either side of one limit alone"
+                "the `tolerance` of `{name}` also needs `{missing}`: its values repeat after \
+                 {turn} (`periodic`), so that a single limit does not divide them"
             ),
             Self::Component { name, reason } => write!(f, "a component of `{name}` {reason}"),
             Self::Formula { error } => error.fmt(f),
             Self::EstimateOfInput { name } => write!(
                 f,
-                "`{name}` has an uncertainty, and an estimate is a formula of conditions, of inputs with \
-                 the distribution `constant` and of constants; write a formula of `{name}` among the \
-                 `equations`"
+                "`{name}` has an uncertainty, but an estimate may depend only on conditions, \
+                 constants, and inputs with the distribution `constant`; write the formula with \
+                 `{name}` as one of the `equations`"
             ),
             Self::EstimateOfFormula { name } => write!(
                 f,
-                "`{name}` is a formula itself, of more than constants; write that formula here in its \
-                 place, or a formula of `{name}` among the `equations`"
+                "`{name}` is itself a formula of more than constants; write that formula here \
+                 instead, or a formula with `{name}` as one of the `equations`"
             ),
             Self::EstimateUndefined { row, found } => {
                 write!(f, "this estimate is {found} in row {row} of the conditions")
@@ -894,14 +895,14 @@ impl fmt::Display for DiagnosticKind {
                 if let Some(point) = with_point(found) {
                     return write!(
                         f,
-                        "`{found}` is no number: a decimal fraction is written with a point, \
+                        "`{found}` is not a number: write a decimal fraction with a point, \
                          `{point}`"
                     );
                 }
                 write!(
                     f,
-                    "`{found}` is not a finite number; a file of samples has one on each line, and \
-                     `#` before words"
+                    "`{found}` is not a finite number; a file of samples has one number on each \
+                     line, and `#` before remarks"
                 )
             }
             Self::ColumnUnit(found) => found.fmt(f),
@@ -919,16 +920,17 @@ impl fmt::Display for DiagnosticKind {
             Self::Complex { name, reason } => write!(f, "`{name}` {reason}"),
             // more than can be counted, or more than were counted
             Self::TooMany { what, found: usize::MAX, most } => {
-                write!(f, "there are more than {most} {what}, which this version takes at most")
+                write!(f, "there are more than {most} {what}, the most that this version reads")
             }
             Self::TooMany { what, found, most } => {
-                write!(f, "there are {found} {what}; this version takes {most} at most")
+                write!(f, "there are {found} {what}; this version reads at most {most}")
             }
             Self::SavedChanged { part: Some(part) } => {
-                write!(f, "`{part}` was changed since the result was saved; save it again")
+                write!(f, "`{part}` was changed after the result was saved; save it again")
             }
             Self::SavedChanged { part: None } => f.write_str(
-                "this result was changed since it was saved, and does not say where; save it again",
+                "this result was changed after it was saved, but not in a part that can be named; \
+                 save it again",
             ),
             Self::NotResult { file } => {
                 write!(f, "`{file}` is not a saved result (`\"result\": true` is missing)")
@@ -940,21 +942,22 @@ impl fmt::Display for DiagnosticKind {
             Self::SavedEntry { reason } => f.write_str(reason),
             Self::SavedZero { name, found, saved } => write!(
                 f,
-                "the saved result `{name}` is in `{saved}`, the input in `{found}`, whose values count \
-                 from another zero, and a saved result is never shifted; take the unit of the result"
+                "the saved result `{name}` is in `{saved}`, the input in `{found}`; these units \
+                 have different zeros, and a saved result is never shifted; use the unit of the \
+                 result"
             ),
             Self::SavedCorrelation { first, second } => write!(
                 f,
-                "the correlation of `{first}` and `{second}` follows from the saved results that \
-                 they come from; take the declared coefficient out"
+                "the correlation of `{first}` and `{second}` follows from their saved results; \
+                 remove the declared coefficient"
             ),
             Self::MoreMistakes { most } => {
-                write!(f, "there are more mistakes; the first {most} are listed")
+                write!(f, "there are more errors; the first {most} are listed")
             }
             Self::SeveralRows { rows } => write!(
                 f,
-                "this file has {rows} rows of conditions, but a saved result is one row; compare it \
-                 with a file of that row alone"
+                "this file has {rows} rows of conditions, but a saved result has one row; compare \
+                 it with a file that has only this row"
             ),
             Self::Evaluation { message } => f.write_str(message),
             Self::Certificate { reason } | Self::Recipe { reason } | Self::Recording { reason } => {

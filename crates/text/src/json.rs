@@ -207,7 +207,7 @@ fn way_in(name: &str) -> Option<&'static str> {
     const BUDGETS: [&str; 4] = ["csv", "tsv", "xlsx", "xlsm"];
     let (_, extension) = name.rsplit_once('.')?;
     BUDGETS.contains(&extension.to_lowercase().as_str()).then_some(
-        "; an uncertainty budget in a spreadsheet becomes a model file by `gumption import`",
+        "; `gumption import` converts an uncertainty budget in a spreadsheet into a model file",
     )
 }
 
@@ -237,40 +237,41 @@ fn in_plain_words(message: &str, found: Option<char>, before: &str) -> String {
     let is_key = message == "key must be a string";
     let words = match message {
         "expected value" | "key must be a string" if found.is_some_and(is_other_quote) => {
-            "texts and keys stand in straight double quotes, `\"`"
+            "texts and keys need straight double quotes, `\"`"
         }
         _ if is_key
             && digit(found)
             && before.strip_suffix(',').is_some_and(|b| digit(b.chars().next_back())) =>
         {
-            "a decimal fraction is written with a point, such as 5.01, not with a comma"
+            "write a decimal fraction with a point, such as 5.01, not with a comma"
         }
         "expected ident" if is_first_word(before) => {
-            "a file begins with `{` and its keys stand in double quotes; YAML and TOML are not read, and \
+            "a file begins with `{` and its keys are in double quotes; YAML and TOML are not read, \
+             and \
              budgets of other programs by `gumption import`"
         }
         "expected value" | "expected ident" => {
-            "a value should stand here: a number, a text in double quotes, true, false, null, a \
+            "a value is expected here: a number, a text in double quotes, true, false, null, a \
              list or an object"
         }
         "key must be a string" if found == Some('/') => {
             "it has no comments; `about`, `title` and `source` take texts"
         }
-        "key must be a string" => "a key in double quotes should stand here",
-        "trailing comma" => "a comma stands before this end of a list or object; take it out",
+        "key must be a string" => "a key in double quotes is expected here",
+        "trailing comma" => "there is a comma before this end of a list or object; remove it",
         "trailing characters" => "there is more after the end of the value",
         "expected `,` or `}`" | "expected `,` or `]`" => {
-            return format!("{} should stand before this", message.replace("expected ", ""));
+            return format!("{} is missing before this", message.replace("expected ", ""));
         }
-        "expected `:`" => "a colon should stand between key and value",
+        "expected `:`" => "a colon is missing between key and value",
         "invalid number" => {
-            "a number is written like 0.5, -3 or 1e-6: with digits on both sides of a point, \
+            "write a number like 0.5, -3 or 1e-6: with digits on both sides of a point, \
              without leading zeros or a plus sign"
         }
-        "recursion limit exceeded" => "more than 127 lists and objects stand inside each other",
+        "recursion limit exceeded" => "more than 127 lists and objects are nested",
         _ if message.starts_with("EOF") => "the text ends before a text, list or object is closed",
         _ if message.starts_with("control character") => {
-            "a text in quotes ends on the line on which it begins; a line break in it is written `\\n`"
+            "a text in quotes must end on the line on which it begins; write a line break as `\\n`"
         }
         other => other,
     };

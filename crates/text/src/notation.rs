@@ -163,9 +163,9 @@ fn in_one_unit(text: &str, unit: &str, declared: &str, own: &[Unit]) -> Result<(
         return Ok(());
     }
     Err(format!(
-        "the value can be {value} {unit}, as what stands behind it, or {value} {declared}, the input's \
-         unit: give the value a unit of its own, such as `{value} {declared} ± 0.1 {unit} (k=2)`, or \
-         leave `unit` out"
+        "the value can be {value} {unit}, like its uncertainty, or {value} {declared}, in the \
+         input's unit: write the unit of the value, such as `{value} {declared} ± 0.1 {unit} \
+         (k=2)`, or remove `unit`"
     ))
 }
 
@@ -284,16 +284,16 @@ fn stated(text: &str) -> Result<(String, Stated), String> {
         format!("{first}; {FORMS}")
     })?;
     if is_comma(rest) {
-        return Err("a decimal fraction is written with a point, such as `5.01`".to_owned());
+        return Err("write a decimal fraction with a point, such as `5.01`".to_owned());
     }
     if let Some((before, of, after)) = named_uncertainty(rest) {
         let (uncertainty, behind) = digits(&after)
-            .ok_or_else(|| format!("a number is needed behind `{} =`", of.symbol()))?;
+            .ok_or_else(|| format!("a number is needed after `{} =`", of.symbol()))?;
         let unit_end = behind.find(['(', ',', ';']).unwrap_or(behind.len());
         let unit = behind.get(..unit_end).unwrap_or_default().trim();
         if before.trim().is_empty() && !unit.is_empty() {
             return Err(format!(
-                "the value has no unit, and its uncertainty is in `{unit}`; {FORMS}"
+                "the value has no unit, but its uncertainty is in `{unit}`; {FORMS}"
             ));
         }
         return uncertain(&value, before, of, &uncertainty, behind, false);
@@ -312,19 +312,19 @@ fn stated(text: &str) -> Result<(String, Stated), String> {
         let value = format!("{value}{power}");
         if let Some(said) = coverage_behind(after) {
             return Err(format!(
-                "the digits in parentheses are a standard uncertainty (JCGM 100, 7.2.2), and {said} belongs \
-                 to an expanded one: write `5.0112(23) V` or `5.0112 V ± 0.0046 V (k=2)`"
+                "the digits in parentheses are a standard uncertainty (JCGM 100, 7.2.2), but \
+                 {said} belongs to an expanded one: write `5.0112(23) V` or `5.0112 V ± 0.0046 V \
+                 (k=2)`"
             ));
         }
         return Ok((unit(after)?, Stated::Standard(value, std)));
     }
     if let Some((before, after)) = rest.split_once('±') {
         let after = without_parentheses(after.trim());
-        let (expanded, behind) =
-            digits(&after).ok_or("a number is needed behind `±`".to_owned())?;
+        let (expanded, behind) = digits(&after).ok_or("a number is needed after `±`".to_owned())?;
         let behind = match outer {
             Some(outer) if behind.trim().is_empty() => outer,
-            Some(_) => return Err(format!("the unit stands behind the parenthesis; {FORMS}")),
+            Some(_) => return Err(format!("the unit must follow the parenthesis; {FORMS}")),
             None => behind,
         };
         let (value, expanded) = (format!("{value}{power}"), format!("{expanded}{power}"));
@@ -343,7 +343,11 @@ fn stated(text: &str) -> Result<(String, Stated), String> {
         let (low, high) = match (first.strip_prefix('-'), second.strip_prefix('-')) {
             (None, Some(low)) => (low.to_owned(), first),
             (Some(low), None) => (low.to_owned(), second),
-            _ => return Err(format!("one of the two is above and one below; {FORMS}")),
+            _ => {
+                return Err(format!(
+                    "one of the two must have a plus sign and one a minus sign; {FORMS}"
+                ));
+            }
         };
         return Ok((unit(rest)?, Stated::Asymmetric { mode: value, low, high }));
     }
@@ -402,7 +406,7 @@ fn uncertain(
     is_shared: bool,
 ) -> Result<(String, Stated), String> {
     if is_comma(behind) {
-        return Err("a decimal fraction is written with a point, such as `0.01`".to_owned());
+        return Err("write a decimal fraction with a point, such as `0.01`".to_owned());
     }
     let (own, said) = match behind.find(['(', ',', ';']) {
         Some(at) => (behind[..at].trim(), behind[at..].trim()),
@@ -420,7 +424,7 @@ fn uncertain(
         };
         let as_share = share(value).unwrap_or_else(|| "0.01".to_owned());
         return Err(format!(
-            "`± {uncertainty} %` is {uncertainty} % of the value, or both are in %: write \
+            "`± {uncertainty} %` can be {uncertainty} % of the value, or both can be in %: write \
              `{value} ± {as_share} {said}` or `({value} ± {uncertainty}) % {said}`"
         ));
     }
@@ -448,8 +452,9 @@ const DEGREES_OF_FREEDOM: [&str; 5] = ["dof", "veff", "νeff", "ν_eff", "ν"];
 /// follow: `(k=2.28, dof=10)`. All of these may also follow a comma or a semicolon without
 /// parentheses: `, k = 2`. After a standard uncertainty only degrees of freedom are allowed.
 fn coverage_of(of: Uncertainty, text: &str) -> Result<Coverage, String> {
-    const MISSING: &str = "what the uncertainty is must be said: `(k=2)`, `(p=95 %)`, or `(k=1)` for \
-                           a standard uncertainty; degrees of freedom behind it, `(k=2.28, dof=10)`";
+    const MISSING: &str = "state the coverage of the uncertainty: `(k=2)`, `(p=95 %)`, or `(k=1)` \
+                           for a standard uncertainty; degrees of freedom follow it, `(k=2.28, \
+                           dof=10)`";
     let inside = match text.strip_prefix([',', ';']) {
         // `, k = 2 (95 %)`
         Some(rest) if rest.matches('(').count() == rest.matches(')').count() => {
@@ -476,25 +481,25 @@ fn coverage_of(of: Uncertainty, text: &str) -> Result<Coverage, String> {
             "k" if !percent => &mut k,
             "p" => &mut p,
             key if DEGREES_OF_FREEDOM.contains(&key) && !percent => &mut dof,
-            _ => return Err(format!("`{part}` is not known there; {MISSING}")),
+            _ => return Err(format!("`{part}` is unknown here; {MISSING}")),
         };
         let found: f64 = match digits.parse() {
             // `k=2,28` falls into two parts
             Ok(found) if percent || part.contains('=') => found,
             Ok(_) if k.is_none() && p.is_none() && dof.is_none() => {
-                return Err(format!("`{part}` alone does not say what it is; {MISSING}"));
+                return Err(format!("`{part}` alone is ambiguous; {MISSING}"));
             }
             Ok(_) => {
-                return Err("a decimal fraction is written with a point, such as `k=2.28`".into());
+                return Err("write a decimal fraction with a point, such as `k=2.28`".into());
             }
-            Err(_) => return Err(format!("`{part}` is not known there; {MISSING}")),
+            Err(_) => return Err(format!("`{part}` is unknown here; {MISSING}")),
         };
         if key.trim() == "p" {
             let share = if percent { 0.01 } else { 1.0 };
             last_digit_of_p = Some(share * implied_dof::last_digit(digits));
         }
         if DEGREES_OF_FREEDOM.contains(&key.trim()) && found <= 0.0 {
-            return Err(format!("`{part}` is none: degrees of freedom are above zero"));
+            return Err(format!("`{part}` is not valid: degrees of freedom must be above zero"));
         }
         let found = if percent {
             (gumption_engine::decimal::exact(found / 100.0), found / 100.0)
@@ -502,7 +507,7 @@ fn coverage_of(of: Uncertainty, text: &str) -> Result<Coverage, String> {
             (digits.to_owned(), found)
         };
         if place.replace(found).is_some() {
-            return Err(format!("`{}` is said twice; {MISSING}", key.trim()));
+            return Err(format!("`{}` is given twice; {MISSING}", key.trim()));
         }
     }
     let dof = dof.map(|(text, _)| text);
@@ -510,8 +515,8 @@ fn coverage_of(of: Uncertainty, text: &str) -> Result<Coverage, String> {
         return match (k, p) {
             (None, None) => Ok(Coverage { key: "k", factor: "1".to_owned(), dof }),
             (Some((factor, 1.0)), None) => Ok(Coverage { key: "k", factor, dof }),
-            _ => Err("`u =` is a standard uncertainty, and what stands behind it belongs to an \
-                      expanded one: write `U =`, or leave it out"
+            _ => Err("`u =` is a standard uncertainty, but the text after it belongs to an \
+                      expanded one: write `U =`, or remove it"
                 .to_owned()),
         };
     }
@@ -519,7 +524,7 @@ fn coverage_of(of: Uncertainty, text: &str) -> Result<Coverage, String> {
         (Some((factor, k)), Some((_, p))) => {
             // rounded to three digits, as on certificates
             if !(p > 0.0 && p < 1.0) {
-                return Err(format!("a probability of {p} is none: write `95 %` or `p=0.95`"));
+                return Err(format!("{p} is not a probability: write `95 %` or `p=0.95`"));
             }
             let needed = special::normal::quantile(0.5 + 0.5 * p);
             if k < 0.995 * needed {
@@ -554,9 +559,10 @@ fn coverage_of(of: Uncertainty, text: &str) -> Result<Coverage, String> {
                 Some(dof) => {
                     let percent = gumption_engine::decimal::exact(100.0 * p);
                     Err(format!(
-                        "k = {factor} with {percent} % can be the factor of a normal distribution, beside \
-                         another probability than its own, or that of a t distribution with {dof} degrees \
-                         of freedom: write `k={factor}` alone, or `p={percent} %, dof={dof}`"
+                        "k = {factor} with {percent} % can be the factor of a normal distribution \
+                         with a rounded probability, or that of a t distribution with {dof} \
+                         degrees of freedom: write `k={factor}` alone, or `p={percent} %, \
+                         dof={dof}`"
                     ))
                 }
                 None => Ok(Coverage { key: "k", factor, dof }),
@@ -574,7 +580,9 @@ fn in_parentheses(value: &str, inside: &str, shift: i32) -> Result<String, Strin
     let is_number = inside.parse::<f64>().is_ok_and(|x| x > 0.0 && x.is_finite());
     let plain = inside.chars().all(|c| c.is_ascii_digit() || c == '.');
     if !is_number || !plain {
-        return Err(format!("`({inside})` is no uncertainty in the last digits, such as `(23)`"));
+        return Err(format!(
+            "`({inside})` is not an uncertainty in the last digits, such as `(23)`"
+        ));
     }
     let power = match value.split_once(['e', 'E']) {
         Some((_, power)) => power.parse().unwrap_or(0),
@@ -582,7 +590,7 @@ fn in_parentheses(value: &str, inside: &str, shift: i32) -> Result<String, Strin
     };
     let mantissa = value.split(['e', 'E']).next().unwrap_or_default();
     let decimals = mantissa.split_once('.').map_or(0, |(_, decimals)| decimals.len() as i32);
-    let (digits, _) = digits(inside).ok_or_else(|| format!("`({inside})` is no number"))?;
+    let (digits, _) = digits(inside).ok_or_else(|| format!("`({inside})` is not a number"))?;
     let power = match inside.contains('.') {
         true => Some(power),
         false => i32::checked_sub(power, decimals),
@@ -638,11 +646,11 @@ fn signed(text: &str) -> Option<(String, &str)> {
 fn unit(text: &str) -> Result<String, String> {
     let text = text.trim();
     if text.contains(['±', '+', '=']) {
-        return Err(format!("`{text}` is no unit"));
+        return Err(format!("`{text}` is not a unit"));
     }
     if let Some(digits) = number_in_parentheses(text) {
         return Err(format!(
-            "a second uncertainty in parentheses, `({digits})`, is not read: combine the two"
+            "a second uncertainty in parentheses, `({digits})`, is not accepted: combine the two"
         ));
     }
     if let Some(reason) = grouped_digits(text) {
@@ -759,7 +767,7 @@ mod tests {
             ("5.0 V ± 0.1 V, k = 2 (95 %", "not closed"),
             ("5.0 V ± 0.1 V,", "not known there"),
             ("5.0 V, U = 0.1 V", "must be said"),
-            ("5.0 V, U = , k = 2", "a number is needed behind `U =`"),
+            ("5.0 V, U = , k = 2", "a number is needed after `U =`"),
             ("5.0 V, u = 0.1 V, k = 2", "`u =` is a standard uncertainty"),
             ("5.0 V, s = 0.1 V", "is no unit"),
             ("5.0112(46) V (k=2)", "belongs to an expanded one"),

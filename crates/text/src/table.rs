@@ -49,7 +49,8 @@ impl Table {
             self.columns.iter().filter(of_name).map(|column| format!("`{column}`")).collect();
         if alike.len() > 1 {
             return format!(
-                "`{}` has more than one column `{name}`: {}; name one as it stands there, with its unit",
+                "`{}` has more than one column `{name}`: {}; write the full header of one, with \
+                 its unit",
                 self.source.name,
                 gumption_units::listed(&alike, " and ")
             );
@@ -124,7 +125,7 @@ fn read_bytes(
         Ok(table) => Ok((table, bytes)),
         // the content may be anything, and is not quoted
         Err(_) if !has_numbers(&source.text) => {
-            let message = "it is no table of numbers: below its first line there is none";
+            let message = "it is not a table of numbers: there is no number below its first line";
             Err(unreadable(message.to_owned()))
         }
         Err(kinds) => Err(kinds),

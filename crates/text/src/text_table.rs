@@ -42,7 +42,7 @@ impl TextTable {
             // a quoted cell may continue after the end of the line (RFC 4180, 2.6)
             let Some(length) = record(rest, separator.sign()) else {
                 let span = start..start + line.trim_end().len();
-                let reason = "a cell that begins with a quote has no quote at its end".to_owned();
+                let reason = "a cell begins with a quote but has no closing quote".to_owned();
                 let place = Place { source: source.clone(), span };
                 log.report_at(place, DiagnosticKind::Table { reason });
                 return None;
@@ -166,9 +166,7 @@ impl TextTable {
 /// What to do about a row with only one cell, such as a footnote.
 pub fn alone(words: &str) -> String {
     let words: String = words.chars().take(40).collect();
-    format!(
-        "`{words}` stands alone in its row: remove the row, or begin it with `#` if it is a remark"
-    )
+    format!("`{words}` is alone in its row: remove the row, or begin it with `#` if it is a remark")
 }
 
 /// The length of the first line of a text including its end: `\n`, `\r\n`, or the lone `\r` that

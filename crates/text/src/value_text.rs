@@ -51,11 +51,11 @@ pub fn decimal_comma(whole: f64, rest: &str) -> String {
     let whole = Shortest(whole);
     if digits.len() == 3 {
         format!(
-            "`{whole},{digits}` can be {whole}.{digits} or {whole}{digits}; a decimal fraction is \
-             written with a point, and digits are not grouped"
+            "`{whole},{digits}` can be {whole}.{digits} or {whole}{digits}; write a decimal \
+             fraction with a point, and do not group digits"
         )
     } else {
-        format!("a decimal fraction is written with a point, such as `{whole}.{digits}`")
+        format!("write a decimal fraction with a point, such as `{whole}.{digits}`")
     }
 }
 
@@ -140,8 +140,8 @@ pub fn grouped_digits(unit: &str) -> Option<String> {
         .map(|rest| rest.len() - rest.trim_start_matches(|c: char| c.is_ascii_digit()).len());
     if group == Some(3) {
         return Some(format!(
-            "behind the number stands `{unit}`: digits are written without marks of thousands, such as \
-             `1234.5`"
+            "the number is followed by `{unit}`: write digits without thousands separators, such \
+             as `1234.5`"
         ));
     }
     let digits = unit.len() - unit.trim_start_matches(|c: char| c.is_ascii_digit()).len();
@@ -149,15 +149,15 @@ pub fn grouped_digits(unit: &str) -> Option<String> {
     let is_digit = |below: &str| below.starts_with(|c: char| c.is_ascii_digit());
     if digits > 0 && below.is_some_and(is_digit) {
         return Some(format!(
-            "`{unit}` behind a number is a fraction that is added to it, or one that it is multiplied by: \
-             write a decimal fraction, such as `1.5 in` for one inch and a half"
+            "`{unit}` after a number can be a fraction to add or a factor: write a decimal \
+             fraction, such as `1.5 in` for one inch and a half"
         ));
     }
     let per = unit.starts_with('1') && digits == 1 && below.is_some();
     (unit.starts_with(|c: char| c.is_ascii_digit()) && !per).then(|| {
         format!(
-            "behind the blank stands another number (`{unit}`): digits are written without blanks, \
-             such as `1234.5`"
+            "the space is followed by another number (`{unit}`): write digits without spaces, such \
+             as `1234.5`"
         )
     })
 }
@@ -187,25 +187,28 @@ fn is_sum_of_units(text: &str) -> bool {
 pub(crate) fn unit_behind_number(text: &str, own: &[Unit]) -> Result<Unit, String> {
     if let Some(digits) = number_in_parentheses(text) {
         return Err(format!(
-            "`({digits})` behind a number can be an uncertainty or a factor: uncertainties that belong \
-             together are combined and written once, and a unit begins with no number"
+            "`({digits})` after a number can be an uncertainty or a factor: combine uncertainties \
+             and write them once; a unit does not begin with a number"
         ));
     }
     if text.contains('=') {
         return Err(format!(
-            "`{text}` is more than a unit: a coverage factor or probability is the key `k` or `p` beside \
-             `expanded`, or stands in a whole input, `\"5.0112 V ± 0.0046 V (k=2)\"`"
+            "`{text}` is more than a unit: write a coverage factor or probability as the key `k` \
+             or `p` next to `expanded`, or the whole input as one text, `\"5.0112 V ± 0.0046 V \
+             (k=2)\"`"
         ));
     }
     if sexagesimal::has_minutes(text) {
-        return Err("an angle in degrees, minutes and seconds is written `12°30'15.2\"` or \
-                    `12 deg 30 arcmin 15.2 arcsec`, with minutes and seconds below 60"
-            .to_owned());
+        return Err(
+            "write an angle in degrees, minutes and seconds as `12°30'15.2\"` or `12 deg 30 \
+                    arcmin 15.2 arcsec`, with minutes and seconds below 60"
+                .to_owned(),
+        );
     }
     match grouped_digits(text) {
         Some(reason) => Err(reason),
         None if is_sum_of_units(text) => Err(format!(
-            "`{text}` is more than one unit: values that are added are a formula, with each unit in \
+            "`{text}` is more than one unit: write a sum of values as a formula, with each unit in \
              brackets, such as `5 [ft] + 3 [in]`"
         )),
         None => Unit::parse_among(text, own).map_err(|error| {
@@ -214,7 +217,7 @@ pub(crate) fn unit_behind_number(text: &str, own: &[Unit]) -> Result<Unit, Strin
             let near = error.suggestions().into_iter().next();
             match near.filter(|unit| unit.starts_with(|c: char| c.is_ascii_digit())) {
                 Some(size) => format!(
-                    "{error} Behind a number stands a unit of one's own: `\"units\": {{\"{text}\": \
+                    "{error} Define a unit of your own: `\"units\": {{\"{text}\": \
                      \"{size}\"}}` at the root of the file"
                 ),
                 None => error.to_string(),
@@ -269,7 +272,7 @@ pub fn either_temperature(unit: &Unit) -> String {
     } else {
         ("a level above a reference", "a difference of levels")
     };
-    format!("nothing tells whether it is {value} or {difference}; write it in `{unit}`")
+    format!("it can be {value} or {difference}; write it in `{unit}`")
 }
 
 /// The power of ten of the last written digit of a number, counting trailing zeros: -3 for `0.100`.

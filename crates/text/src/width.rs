@@ -79,12 +79,12 @@ impl Width {
                     let is_ratio = unit.is_relative() || counts_alike(factor, unit);
                     if is_ratio || unit.is_celsius() || !unit.level_exponent().is_zero() {
                         let own = if is_ratio {
-                            format!("the number alone, without quotes, for as much in `{unit}`")
+                            format!("the number alone, without quotes, for a width in `{unit}`")
                         } else {
                             "a value with its unit".to_owned()
                         };
                         return Err(format!(
-                            "for a quantity in `{unit}` it is not clear what `{term}` is of: write \
+                            "for a quantity in `{unit}` the base of `{term}` is unclear: write \
                              `{term} of reading`, or {own}"
                         ));
                     }
@@ -94,9 +94,9 @@ impl Width {
                 Some((factor, range)) => {
                     let (full, range_unit) = number(range).map_err(|_| {
                         format!(
-                            "`{term}`: what it is a share of is a value, such as `0.01 % of 10 V`, or \
-                             `reading`; `{range}` is neither (of a condition the width is a formula, such \
-                             as `1e-4*{range}`)"
+                            "`{term}`: a share needs a value, such as `0.01 % of 10 V`, or \
+                             `reading`; `{range}` is neither (for a share of a condition write a \
+                             formula, such as `1e-4*{range}`)"
                         )
                     })?;
                     width.absolute +=
@@ -108,7 +108,7 @@ impl Width {
         if width.relative > 0.0 || width.absolute > 0.0 {
             Ok(width)
         } else {
-            Err(format!("it is zero, but a width is above zero{WITHOUT_UNCERTAINTY}"))
+            Err(format!("it is zero, but a width must be above zero{WITHOUT_UNCERTAINTY}"))
         }
     }
 }
@@ -135,9 +135,9 @@ pub fn without_plus_minus(text: &str, key: &str) -> Result<String, String> {
     let Some(width) = written.strip_prefix('±') else { return Ok(text.to_owned()) };
     if !BOTH_SIDES.contains(&key) {
         return Err(format!(
-            "`±` stands before limits or an expanded uncertainty, and `{key}` is a standard deviation: \
-             give it as the `half_width` of a rectangular distribution or as `expanded` with its `k`, or \
-             leave the sign out"
+            "`±` belongs to limits or an expanded uncertainty, but `{key}` is a standard \
+             deviation: write the `half_width` of a rectangular distribution, or `expanded` with \
+             its `k`, or remove the sign"
         ));
     }
     let width = width.trim();
@@ -228,8 +228,8 @@ fn converted(
             Err(match unit.is_relative() {
                 // per cent of what, if the quantity itself is in per cent?
                 true => format!(
-                    "`{term}` has no unit, and beside it `{term} {unit}` would not say what it is of: \
-                     give the two as components"
+                    "`{term}` has no unit, and the base of `{term} {unit}` would be unclear: write \
+                     the two terms as components"
                 ),
                 false => format!("`{term}` has no unit; write for example `{term} {unit}`"),
             })
@@ -248,12 +248,13 @@ fn converted(
         if let Some(words) = words.filter(|_| unit_behind_number(text, own).is_err()) {
             let number = term.strip_suffix(words).unwrap_or(term).trim_end();
             format!(
-                "`{words}` in `{term}` is no unit: a share of a range, or of full scale, is written with \
-                 its value, such as `{number} of 10 V`, and one of the reading `{number} of reading`"
+                "`{words}` in `{term}` is not a unit: write a share of a range, or of full scale, \
+                 with its value, such as `{number} of 10 V`, and a share of the reading as \
+                 `{number} of reading`"
             )
         } else if is_of_display {
             format!(
-                "how large a digit is depends on the range: write `{term}` as a value in `{unit}`"
+                "the size of a digit depends on the range: write `{term}` as a value in `{unit}`"
             )
         } else {
             error

@@ -82,7 +82,8 @@ pub fn is_workbook(path: &Path) -> Result<bool, String> {
     match extension.as_deref() {
         Some("xlsx" | "xlsm") => Ok(true),
         Some(other @ ("xls" | "xlsb" | "ods" | "numbers" | "xlt" | "fods")) => Err(format!(
-            "it is a workbook of the format .{other}, which is not read here: save it as .xlsx, or its sheet \
+            "it is a workbook of the format .{other}, which cannot be read: save it as .xlsx, or \
+             its sheet \
              as .csv"
         )),
         _ => Ok(false),
@@ -238,7 +239,7 @@ pub fn reference((row, column): Place) -> String {
 }
 
 fn is_none(error: impl fmt::Display) -> String {
-    format!("it is no workbook: {error}")
+    format!("it is not a workbook: {error}")
 }
 
 /// Unpacks every part once to check its size and that its cells lie within a sheet.
@@ -247,7 +248,7 @@ fn check_parts(bytes: &[u8]) -> Result<(), String> {
     let parts = bytes.windows(4).filter(|window| window == b"PK\x01\x02").count();
     if parts > MOST_PARTS {
         return Err(format!(
-            "its archive has {parts} parts; this version takes {MOST_PARTS} at most"
+            "its archive has {parts} parts; this version reads at most {MOST_PARTS}"
         ));
     }
     let mut archive = ZipArchive::new(Cursor::new(bytes)).map_err(is_none)?;
@@ -265,7 +266,7 @@ fn check_parts(bytes: &[u8]) -> Result<(), String> {
         if found > most {
             let most = most / 1_000_000;
             return Err(format!(
-                "{what} unpacks to more than {most} MB, which this version takes at most"
+                "{what} unpacks to more than {most} MB, the most that this version reads"
             ));
         }
         // other parts are pictures and printer settings
@@ -453,7 +454,7 @@ fn cells(
         if *size > MOST_OF_TEXT {
             let most = MOST_OF_TEXT / 1_000_000;
             return Err(format!(
-                "its cells hold more than {most} MB of text, which this version takes at most"
+                "its cells hold more than {most} MB of text, the most that this version reads"
             ));
         }
         cells.entry(row).or_default().insert(column, text);
@@ -623,7 +624,7 @@ mod tests {
             names.iter().map(|name| (name.as_str(), false, rows)).collect();
         assert_eq!(Book::open(sheets(&all[..256])).unwrap().sheets().len(), 256);
         let said = Book::open(sheets(&all)).err().unwrap();
-        assert_eq!(said, "it has 257 sheets; this version takes 256 at most");
+        assert_eq!(said, "it has 257 sheets; this version reads at most 256");
         let mut zip = zip::ZipWriter::new(Cursor::new(Vec::new()));
         for (name, text) in PARTS {
             let sheet = r#"<sheet name="a" sheetId="1" r:id="r1"/>"#;

@@ -42,14 +42,14 @@ pub fn check(text: &str) -> Result<(), Excess> {
                 let depth = open.len() + 1;
                 let excess = [
                     (attributes, MOST_ATTRIBUTES, "attributes at one element"),
-                    (depth, DEEPEST, "elements in each other"),
+                    (depth, DEEPEST, "nested elements"),
                     (in_scope + namespaces, MOST_NAMESPACES, "namespaces for one element"),
                 ];
                 if let Some((found, most, what)) =
                     excess.into_iter().find(|(found, most, _)| found > most)
                 {
                     let reason = format!(
-                        "its XML has {found} {what} here; this version takes {most} at most"
+                        "its XML has {found} {what} here; this version reads at most {most}"
                     );
                     return Err(Excess { at, reason });
                 }
@@ -95,13 +95,13 @@ mod tests {
         assert_eq!(at, 3);
         assert_eq!(
             reason,
-            "its XML has 20000 attributes at one element here; this version takes 256 at most"
+            "its XML has 20000 attributes at one element here; this version reads at most 256"
         );
         let nested = |depth: usize| format!("{}{}", "<e>".repeat(depth), "</e>".repeat(depth));
         assert_eq!(refused(&nested(256)), None);
         let (at, reason) = refused(&nested(257)).unwrap();
         assert_eq!(at, 768);
-        assert!(reason.contains("257 elements in each other here; this version takes 256"));
+        assert!(reason.contains("257 nested elements here; this version takes 256"));
         let declared = |depth: usize| -> String {
             let open = (0..depth).map(|n| format!("<e xmlns:n{n}=\"u\">"));
             open.collect::<String>() + &"</e>".repeat(depth)

@@ -232,21 +232,21 @@ impl fmt::Display for UnitError {
         match self {
             Self::UnknownUnit { name, nearest, .. } if nearest.is_empty() => write!(
                 f,
-                "`{name}` is not a known unit; units are written like `mm`, `kg*m^-3` or `m/s^2`"
+                "`{name}` is not a known unit; write units like `mm`, `kg*m^-3` or `m/s^2`"
             ),
             Self::UnknownUnit { name, nearest, .. } => {
                 write!(f, "`{name}` is not a known unit; did you mean {}?", alternatives(nearest))
             }
             Self::QualifiedUnit { name, unit, says, .. } => write!(
                 f,
-                "`{name}` says more than a unit does: it is {says}; write `{unit}`, and say the rest in the \
-                 name of the quantity"
+                "`{name}` says more than a unit may: it is {says}; write `{unit}`, and put the \
+                 rest into the name of the quantity"
             ),
             Self::PrefixNotAllowed { prefix, unit, instead, .. } => {
-                write!(f, "the prefix `{prefix}` cannot stand before `{unit}`; write `{instead}`")
+                write!(f, "`{unit}` does not take the prefix `{prefix}`; write `{instead}`")
             }
             Self::UnexpectedCharacter { found, expected, suggestion, .. } => {
-                write!(f, "`{}` cannot stand here; expected {expected}", Shown(*found))?;
+                write!(f, "`{}` is not allowed here; expected {expected}", Shown(*found))?;
                 match suggestion {
                     Some(suggestion) => write!(f, "; did you mean `{suggestion}`?"),
                     None => Ok(()),
@@ -288,23 +288,20 @@ impl fmt::Display for UnitError {
             }
             Self::NumberInParentheses { found, .. } => write!(
                 f,
-                "`{found}` behind a unit can be an uncertainty, what belongs to one, or a factor: an \
-                 uncertainty stands before the unit, `5.0112(23) V`, or is named, `5.0112 V ± 0.0046 V \
-                 (k=2)`, and a factor has its sign, as in `V*2`"
+                "`{found}` after a unit can be an uncertainty, a coverage, or a factor: write an \
+                 uncertainty before the unit, `5.0112(23) V`, or after the value, `5.0112 V ± \
+                 0.0046 V (k=2)`, and a factor with its sign, as in `V*2`"
             ),
             Self::FactorOutOfRange { .. } => f.write_str(
                 "the factor of this unit is zero, or too large or too small to calculate with; it \
                  must be a positive number from about 1e-307 to 1e308",
             ),
-            Self::TooLong { length, limit } => write!(
-                f,
-                "a text of {length} bytes is too long to be a unit; at most {limit} are allowed"
-            ),
-            Self::NestedTooDeep { limit, .. } => write!(
-                f,
-                "there are too many parentheses or roots inside each other; at most {limit} are \
-                 allowed"
-            ),
+            Self::TooLong { length, limit } => {
+                write!(f, "a unit of {length} bytes is too long; at most {limit} are allowed")
+            }
+            Self::NestedTooDeep { limit, .. } => {
+                write!(f, "too many parentheses or roots are nested; at most {limit} are allowed")
+            }
         }
     }
 }

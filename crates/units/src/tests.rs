@@ -315,14 +315,14 @@ fn messages_read_well() {
     let cases = [
         ("Kg", "`Kg` is not a known unit; did you mean `kg`?"),
         ("mhz", "`mhz` is not a known unit; did you mean `mHz` or `MHz`?"),
-        ("qqq", "`qqq` is not a known unit; units are written like `mm`, `kg*m^-3` or `m/s^2`"),
+        ("qqq", "`qqq` is not a known unit; write units like `mm`, `kg*m^-3` or `m/s^2`"),
         ("mdegC", "the prefix `m` cannot stand before `degC`; write `mK`"),
         (
             "m-3",
-            "`-` cannot stand here; expected `*`, `/`, `^` or the end of the unit; did you mean \
+            "`-` is not allowed here; expected `*`, `/`, `^` or the end of the unit; did you mean \
              `m^-3`?",
         ),
-        ("m\u{7}", "`\\u{7}` cannot stand here; expected `*`, `/`, `^` or the end of the unit"),
+        ("m\u{7}", "`\\u{7}` is not allowed here; expected `*`, `/`, `^` or the end of the unit"),
         ("m/", "`/` needs a unit or a number after it"),
         ("/s", "`/` needs a unit or a number before it, such as `1/`"),
         ("m/(s", "`(` opens a parenthesis that is not closed; add `)`"),

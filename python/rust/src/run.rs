@@ -159,7 +159,8 @@ impl Run {
             None => Err(argument(
                 py,
                 format!(
-                    "there is no format `{format}`; there are table, json, csv, markdown, latex, html \
+                    "there is no format `{format}`; the formats are table, json, csv, markdown, \
+                     latex, html \
                      and xlsx"
                 ),
             )),

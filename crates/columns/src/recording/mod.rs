@@ -65,7 +65,7 @@ fn npy_numbers(
     let count = count.filter(|count| count.checked_mul(size) == Some(bytes.len()));
     let Some(count) = count.filter(|count| *count > 0) else {
         return Err(format!(
-            "it has {} bytes behind its header, not {rows} x {columns} numbers",
+            "it has {} bytes after its header, not {rows} x {columns} numbers",
             bytes.len()
         ));
     };

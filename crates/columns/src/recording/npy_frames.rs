@@ -30,7 +30,7 @@ impl<R: Read> NpyFrames<R> {
             [samples] => (samples, 1),
             [samples, channels] if !fortran_order || channels == 1 => (samples, channels),
             [_, _] => {
-                return Err("its array lies in Fortran order, column by column; save it with \
+                return Err("its array is in Fortran order, column by column; save it with \
                             `numpy.ascontiguousarray`"
                     .to_owned());
             }
@@ -42,7 +42,7 @@ impl<R: Read> NpyFrames<R> {
         };
         if channels > MOST_CHANNELS {
             return Err(format!(
-                "its array has {channels} columns; {MOST_CHANNELS} are read at most"
+                "its array has {channels} columns; at most {MOST_CHANNELS} are read"
             ));
         }
         let channels = channels as usize;
@@ -170,12 +170,12 @@ mod tests {
             ),
             (
                 file("<f8", "(1, 9223372036854775808)", "False", &[]),
-                "its array has 9223372036854775808 columns; 1048576 are read at most",
+                "its array has 9223372036854775808 columns; at most 1048576 are read",
             ),
             (file("<f8", "(2, 0)", "False", &[]), "its array has 0 columns, so no column 1"),
             (
                 file("<f8", "(1, 2)", "True", &[]),
-                "its array lies in Fortran order, column by column; save it with \
+                "its array is in Fortran order, column by column; save it with \
                  `numpy.ascontiguousarray`",
             ),
             (

@@ -147,12 +147,13 @@ impl NpyHeader {
             }
             [major, minor] => {
                 return Err(format!(
-                    "it is a NumPy file of version {major}.{minor}; 1.0, 2.0 and 3.0 are read"
+                    "it is a NumPy file of version {major}.{minor}; this program reads 1.0, 2.0 \
+                     and 3.0"
                 ));
             }
         };
         if length > LONGEST {
-            return Err(format!("its header has {length} bytes; {LONGEST} are read at most"));
+            return Err(format!("its header has {length} bytes; at most {LONGEST} are read"));
         }
         let mut header = vec![0; length as usize];
         reader.read_exact(&mut header).map_err(broken)?;
@@ -192,7 +193,7 @@ impl NpyHeader {
             wrong("`shape` is not a tuple of whole numbers from 0 to 18446744073709551615")
         })?;
         let Some(name) = quoted(descr).filter(|name| name.len() + 2 == descr.len()) else {
-            return Err("its array is one of records, but must be of plain numbers".to_owned());
+            return Err("its array has records, but must have plain numbers".to_owned());
         };
         let number = NpyNumber::parse(name).ok_or_else(|| {
             format!(

@@ -152,11 +152,12 @@ impl Stamps {
             (Date::Written(first), Date::Written(date)) if first == date => 0,
             (Date::Written(first), Date::Written(date)) => {
                 return Err(format!(
-                    "the date changes from `{first}` to `{date}`, of which nothing tells the days between: \
+                    "the date changes from `{first}` to `{date}`, and the number of days between \
+                     them is unknown: \
                      write dates as `2026-03-02`"
                 ));
             }
-            _ => return Err(format!("`{text}` is not written as the stamps before it")),
+            _ => return Err(format!("`{text}` is not written like the time stamps before it")),
         };
         let mut since = days * DAY + stamp.time - first.time;
         // the time of day starts again

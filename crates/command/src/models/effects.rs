@@ -14,7 +14,7 @@ pub(super) fn named(name: Option<&str>) -> Result<EffectListing, Failure> {
     let Some(name) = name else { return Ok(EffectListing { names, effects }) };
     let hint = match nearest(name, effects.iter().map(|effect| effect.name.as_str())) {
         Some(near) => format!("did you mean `{near}`?"),
-        None => "`gumption models --effects` lists those that there are".to_owned(),
+        None => "`gumption models --effects` lists them".to_owned(),
     };
     effects.retain(|effect| effect.name == name);
     if effects.is_empty() {

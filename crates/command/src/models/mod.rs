@@ -77,8 +77,7 @@ impl Models {
 
 fn unknown(catalogue: &Catalogue, name: &str) -> Failure {
     let near = all_nearest(name, catalogue.iter().map(CatalogueEntry::name));
-    let hint = did_you_mean(&near)
-        .unwrap_or_else(|| "`gumption models` lists those that there are".to_owned());
+    let hint = did_you_mean(&near).unwrap_or_else(|| "`gumption models` lists them".to_owned());
     Failure::Argument(format!("there is no typed model `{name}`; {hint}"))
 }
 

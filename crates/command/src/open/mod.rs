@@ -99,13 +99,13 @@ impl Open {
         let hint = match (self.port, error.kind()) {
             (0, _) => "",
             (_, io::ErrorKind::AddrInUse) => {
-                "; another program has it: without `--port` a free one is taken"
+                "; another program uses it: without `--port` a free one is chosen"
             }
-            (_, io::ErrorKind::PermissionDenied) => "; ports from 1024 on are for everybody",
+            (_, io::ErrorKind::PermissionDenied) => "; use a port from 1024 on",
             _ => "",
         };
         let port = if self.port == 0 { String::new() } else { format!(" {}", self.port) };
-        Failure::System(format!("cannot take port{port} of 127.0.0.1: {error}{hint}"))
+        Failure::System(format!("cannot use port{port} of 127.0.0.1: {error}{hint}"))
     }
 }
 

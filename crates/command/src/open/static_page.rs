@@ -24,7 +24,7 @@ const MOST: u64 = 256 << 20;
 pub(super) fn write(folder: &Path, wasm: Option<&Path>) -> Result<Exit, Failure> {
     let wasm = wasm.map(program).transpose()?;
     let failed = |error: io::Error| {
-        Failure::System(format!("cannot make the folder `{}`: {error}", shown(folder)))
+        Failure::System(format!("cannot create the folder `{}`: {error}", shown(folder)))
     };
     std::fs::create_dir_all(folder.join("assets")).map_err(failed)?;
     for asset in files_of_page::all() {
@@ -39,7 +39,7 @@ pub(super) fn write(folder: &Path, wasm: Option<&Path>) -> Result<Exit, Failure>
         Some(content) => put(&place, &content)?,
         None if place.is_file() => {}
         None => say(&format!(
-            "note: `{}` is missing, without which the page computes nothing: `page/build-wasm.sh` \
+            "note: `{}` is missing, and the page cannot compute without it: `page/build-wasm.sh` \
              makes it where there is a compiler for it, and `--wasm FILE` takes it\n",
             shown(&place)
         )),

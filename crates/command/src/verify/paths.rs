@@ -49,7 +49,7 @@ impl Paths {
             }
         };
         let Trials::Fixed(trials) = self.trials else {
-            return Err(Failure::Argument("a fixed number of trials is compared".to_owned()));
+            return Err(Failure::Argument("`--paths` needs a fixed number of trials".to_owned()));
         };
         let mut text = String::new();
         let mut hashes = Vec::new();

@@ -47,7 +47,7 @@ fn answer(
     trials: &mut Option<(Trials, u64)>,
 ) -> Result<Value, String> {
     let replacement = |text: &String| {
-        Override::parse(text).ok_or_else(|| format!("`{text}` is no replacement of an input"))
+        Override::parse(text).ok_or_else(|| format!("`{text}` is not a replacement of an input"))
     };
     let overrides = example.set.iter().map(replacement).collect::<Result<Vec<_>, String>>()?;
     let file = file::read_text(&example.name, example.model, Path::new(""), &overrides)

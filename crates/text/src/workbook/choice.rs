@@ -45,7 +45,7 @@ pub fn of<T>(
     }
     let Wanted { a, one, has_option } = wanted;
     if found.len() > 1 {
-        let say = if *has_option { "say which one with `--sheet NAME`, or " } else { "" };
+        let say = if *has_option { "choose one with `--sheet NAME`, or " } else { "" };
         let names = list(found.iter().map(|(sheet, _)| *sheet), "and");
         let reason = format!("the sheets {names} hold {a} each: {say}keep {one} in a workbook");
         return Err(DiagnosticKind::Table { reason });
@@ -54,9 +54,9 @@ pub fn of<T>(
         for sheet in sheets.iter().filter(|sheet| sheet.is_hidden) {
             if holds(&read(book, sheet)?) {
                 let name = &sheet.name;
-                let say = if *has_option { ", or say it with `--sheet`" } else { "" };
+                let say = if *has_option { ", or name it with `--sheet`" } else { "" };
                 let reason = format!(
-                    "no sheet that is shown holds {a}, and the hidden sheet `{name}` does: show it{say}"
+                    "no visible sheet holds {a}, but the hidden sheet `{name}` does: show it{say}"
                 );
                 return Err(DiagnosticKind::Table { reason });
             }

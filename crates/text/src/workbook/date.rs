@@ -31,6 +31,7 @@ fn of_days(of: &ExcelDateTime) -> String {
 pub(crate) fn no_number(shown: &str) -> String {
     let (what, when) = shown.split_once(' ').unwrap_or(("date", shown));
     format!(
-        "is a {what} ({when}), not a number: give it the format of a number and write the number again"
+        "is a {what} ({when}), not a number: set a number format for the cell and type the number \
+         again"
     )
 }

@@ -77,7 +77,7 @@ impl Layout {
         if self.hidden.contains(&row) {
             Some(("hidden", "show it"))
         } else if is_struck {
-            Some(("struck through", "take the line through it away"))
+            Some(("struck through", "remove the strikethrough"))
         } else {
             None
         }
@@ -120,10 +120,7 @@ impl Layout {
                 "is a formula without a stored value; open and save the workbook in a spreadsheet \
                  program",
             ),
-            (
-                &self.entities,
-                "holds an entity of the document in place of a number; write the number",
-            ),
+            (&self.entities, "holds an XML entity instead of a number; write the number"),
         ];
         kinds.map(|(cells, reason)| first(cells, &is_needed, reason)).into_iter().flatten()
     }
@@ -131,8 +128,9 @@ impl Layout {
     /// The first needed cell that is a formula, if the stored value of all formulas is 0, with
     /// advice.
     pub fn uncalculated(&self, is_needed: impl Fn(Place) -> bool) -> Option<(Place, String)> {
-        let reason = "is a formula whose stored value is 0, like that of every other formula, as of a \
-            workbook that nobody has calculated; open and save it in a spreadsheet program, or write \
+        let reason = "is a formula with the stored value 0, like every other formula, so the \
+                      workbook was probably never calculated; open and save it in a spreadsheet \
+                      program, or write \
             0 in place of the formula";
         first(&self.zeros, is_needed, reason)
     }
@@ -274,14 +272,15 @@ impl PartsOf {
         parts.sheets = parts.names_of_sheets().unwrap_or_default();
         let count = parts.sheets.len();
         if count > MOST_SHEETS {
-            return Err(format!("it has {count} sheets; this version takes {MOST_SHEETS} at most"));
+            return Err(format!("it has {count} sheets; this version reads at most {MOST_SHEETS}"));
         }
         let mut known: HashMap<String, usize> = HashMap::new();
         for (number, name) in parts.sheets.iter().enumerate() {
             let Some(name) = name else { continue };
             if let Some(first) = known.insert(name.to_lowercase(), number) {
                 return Err(format!(
-                    "its sheets {} and {} are both the part `{name}`; each sheet has a part of its own",
+                    "its sheets {} and {} are both the part `{name}`; each sheet needs its own \
+                     part",
                     first + 1,
                     number + 1
                 ));

@@ -63,7 +63,8 @@ impl Parts {
             && (touches || look == "struck-through")
         {
             self.found = Some(format!(
-                "holds `{}` with a {look} `{}`, which may be a power, a footnote or no part of the number: \
+                "holds `{}` with a {look} `{}`, which may be a power, a footnote, or text that \
+                 does not belong to the number: \
                  write the number alone",
                 self.before.trim(),
                 text.trim()

@@ -1,4 +1,4 @@
-//! What certificates are written in: units of their own, elements in each other, blanks and marks.
+//! What certificates are written in: units of their own, nested elements, blanks and marks.
 
 use super::*;
 
@@ -138,7 +138,7 @@ fn lists_stand_in_each_other_to_a_depth() {
         let error = refused(&nested(100), "");
         assert!(error.contains("in each other more than 64 deep"), "{error}");
         let error = refused(&nested(5000), "");
-        assert!(error.contains("257 elements in each other here"), "{error}");
+        assert!(error.contains("257 nested elements here"), "{error}");
     }
 }
 
