@@ -1,9 +1,9 @@
 """Measurement uncertainty: the budget by the GUM and coverage intervals by Monte Carlo, side by side.
 
 Models are files (`load`), dictionaries (`from_dict`), JSON texts (`from_json`) or Python functions
-(`model`). What is known about an input is said by `normal`, `rectangular`, `readings` and the other
-shapes of a model file, or by numbers of ``scipy.stats``, ``uncertainties``, ``GTC``, ``pint`` and
-``astropy``. `Model.run` evaluates; results have the same bits as the command line's.
+(`model`). Inputs are given by `normal`, `rectangular`, `readings` and the other distributions of a
+model file, or by numbers of ``scipy.stats``, ``uncertainties``, ``GTC``, ``pint`` and
+``astropy``. `Model.run` evaluates a model; its results have the same bits as those of the command line.
 """
 
 from __future__ import annotations

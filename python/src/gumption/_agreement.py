@@ -1,4 +1,4 @@
-"""When two evaluations of one function are the same but for rounding."""
+"""Decides whether two evaluations of one function agree apart from rounding."""
 
 from __future__ import annotations
 
@@ -27,17 +27,17 @@ MOVED, ALLOWED = 8 * EPS, 8
 def apart(
     values: Column, truth: Column, scatter: float, moved: Callable[[Callable[[int], float]], Column]
 ) -> Marks:
-    """Where values are not the true ones but for rounding.
+    """The indices at which values differ from the true ones by more than rounding.
 
     Parameters
     ----------
     values, truth : ndarray
-        What is compared.
+        The values to compare.
     scatter : float
         The standard deviation of the values among the draws.
     moved : callable
-        What becomes of the truth where argument i is multiplied by a factor; it is called where
-        rounding alone has to be told from a difference.
+        The true values if argument i is multiplied by a factor; called only to distinguish rounding
+        from a difference.
     """
     allowed = ROUNDING * np.maximum(abs(values), abs(truth)) + OF_SCATTER * scatter
     wrong = differ(values, truth, allowed)
@@ -51,7 +51,7 @@ def apart(
 
 
 def differ(values: Column, truth: Column, allowed: Column | float) -> Marks:
-    """Where two columns differ by more than is allowed; what both do not define does not."""
+    """The indices at which two columns differ by more than the tolerance; values undefined in both agree."""
     defined = np.isfinite(values), np.isfinite(truth)
     with np.errstate(invalid="ignore"):
         far = ~(abs(values - truth) <= allowed)
@@ -60,6 +60,6 @@ def differ(values: Column, truth: Column, allowed: Column | float) -> Marks:
 
 
 def scatter_of(values: Column) -> float:
-    """The standard deviation of those that are defined."""
+    """The standard deviation of the defined values."""
     known = values[np.isfinite(values)]
     return float(np.std(known)) if known.size else 0.0

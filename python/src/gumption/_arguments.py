@@ -1,4 +1,4 @@
-"""The arguments of a function: names and order are its own."""
+"""The arguments of a function, with its own names and order."""
 
 from __future__ import annotations
 
@@ -11,14 +11,14 @@ _POSITIONAL = (inspect.Parameter.POSITIONAL_ONLY, inspect.Parameter.POSITIONAL_O
 
 
 class Arguments:
-    """How a function takes its arguments: by their names, and by position where it has none.
+    """How to pass arguments to a function: by name, or by position if it has no names.
 
     Attributes
     ----------
     names : list of str
         The arguments in the order of the function.
     positional : list of str
-        Those of them that may be given by position.
+        The arguments that may be passed by position.
     """
 
     def __init__(self, function: Callable[..., Any], names: Sequence[str]) -> None:

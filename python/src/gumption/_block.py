@@ -1,4 +1,4 @@
-"""A function of Python as the engine calls it: with columns of values, which it gives columns for."""
+"""A Python function as the engine calls it: with columns of values, for which it returns columns."""
 
 from __future__ import annotations
 
@@ -16,11 +16,11 @@ if TYPE_CHECKING:
 
 
 class NotTheSame(_gumption.ModelError):
-    """A draw in a column is evaluated otherwise than alone."""
+    """A draw gives another value in a column than alone."""
 
 
 class Way(Enum):
-    """What a function is called with."""
+    """The kind of arguments in a call of a function."""
 
     #: All values of an argument at once, in an array that cannot be changed.
     COLUMNS = "columns of draws"
@@ -44,7 +44,7 @@ class BlockFunction:
     aliases : mapping of str to str
         Inputs that are the same quantity as another one.
     alone : Way, optional
-        With columns, how the first draw of each is evaluated once more, to be held against it.
+        With columns, how the first draw of each is evaluated again for comparison.
     """
 
     def __init__(
@@ -108,7 +108,7 @@ class BlockFunction:
     def _check_first(
         self, columns: Mapping[str, Column], found: Mapping[str, Column], alone: Way
     ) -> None:
-        """Holds the first draw of columns against what it gives alone."""
+        """Compares the first draw of columns with its value alone."""
         first = {name: column[:1] for name, column in columns.items()}
         truth = self._of_draws(first, alone)
         for name, values in found.items():
@@ -159,7 +159,7 @@ class BlockFunction:
 
 
 def _numbers(value: Any, name: str) -> Column:
-    """What the function gave as real numbers."""
+    """The results of the function as real numbers."""
     if isinstance(value, np.ma.MaskedArray):
         # a masked value is undefined
         value = np.ma.filled(value.astype(np.float64), np.nan)

@@ -23,10 +23,10 @@ class OutputBudgets:
     Attributes
     ----------
     name, unit : str
-        Of the output.
+        Name and unit of the output.
     estimate, standard_uncertainty, dof, coverage_factor : ndarray
-        Estimates, combined standard uncertainties, effective degrees of freedom (infinite where every
-        contribution's are, NaN where there are none) and coverage factors.
+        Estimates, combined standard uncertainties, effective degrees of freedom (infinite if those
+        of every contribution are, NaN if undefined) and coverage factors.
     sensitivities, contributions : dict of str to ndarray
         For each input its sensitivity coefficients and its contributions.
     """
@@ -50,7 +50,7 @@ class OutputBudgets:
     def to_pandas(self) -> Any:
         """The columns as a ``pandas.DataFrame``, contributions as ``u(input)``.
 
-        Its index is that of the ``pandas`` columns that went in.
+        Its index is that of the ``pandas`` columns given as input.
         """
         import pandas
 
@@ -109,8 +109,8 @@ def budgets(
     Parameters
     ----------
     model : Measurement or Model
-        The model. Of a `Measurement` every input must be given; what is not given of a `Model` is as
-        the model has it.
+        The model. For a `Measurement` every input must be given; for a `Model` missing inputs keep
+        their values.
     coverage, k : float, optional
         Coverage probability or factor.
     real_dof : bool, default False
@@ -118,14 +118,14 @@ def budgets(
     **columns
         For each input its estimates and standard uncertainties, in the unit of the model, as
         ``(x, u)`` or ``(x, u, dof)``: arrays of one entry a row, or numbers for all rows. An array
-        alone is known exactly. An array of ``uncertainties.unumpy`` has both; what its numbers share
-        is not looked at. For each condition its values. Columns of ``pandas`` have one index, which
+        alone is exact. An array of ``uncertainties.unumpy`` has both; correlations between its
+        numbers are ignored. For each condition its values. Columns of ``pandas`` have one index, which
         the result keeps.
 
     Returns
     -------
     mapping of str to OutputBudgets
-        By the names of the outputs; of a model of one output its columns are attributes as well.
+        By the names of the outputs; for a model with one output its columns are also attributes.
 
     Notes
     -----
@@ -163,7 +163,7 @@ def budgets(
 
 
 def _common_index(index: Any, part: Any, name: str) -> Any:
-    """The index of the columns of ``pandas``, which is one."""
+    """The common index of the ``pandas`` columns."""
     own = getattr(part, "index", None)
     # lists and tuples have a method of that name
     if own is None or callable(own):
@@ -177,7 +177,7 @@ def _common_index(index: Any, part: Any, name: str) -> Any:
 
 
 def _check(name: str, parts: tuple[Any, ...], is_condition: bool) -> None:
-    """Whether widths and degrees of freedom can be such."""
+    """Checks that widths and degrees of freedom are valid."""
     _, u, dof = parts
     for what, wrong in (
         ("standard uncertainty", ~(np.asarray(u) >= 0) | np.isinf(u)),

@@ -1,4 +1,4 @@
-"""Functions are held against themselves: what was traced, and what is called with columns, is
+"""Checks functions against themselves: traced functions, and functions called with columns, are
 evaluated again one draw at a time.
 """
 
@@ -29,7 +29,7 @@ BLOCK = 1024
 
 
 class Held:
-    """A function with what it gave when a model of it was made.
+    """A function with its results at the time when its model was made.
 
     Parameters
     ----------
@@ -47,7 +47,7 @@ class Held:
         self._one, self._model, self._variables, self._outputs = one, model, variables, outputs
 
     def check_unchanged(self) -> None:
-        """Refuses a function that gives something else now."""
+        """Raises an error if the function gives another result now."""
         found = self._one.of(self._model)(self._variables)
         known = (self._variables, self._outputs)
         _compare_twice(self._one.measurement, self._model, known, found)
@@ -58,7 +58,7 @@ class Held:
         Raises
         ------
         ModelError
-            If the formulas are not those of the function there.
+            If the formulas differ from the function there.
         """
         if self._model.variables != model.variables:
             # its inputs were put together with those of other models
@@ -82,8 +82,8 @@ def _held_from(
 class Checked(NamedTuple):
     """How a function is evaluated.
 
-    `function` is `None` where its formulas hold; `difference` says why it is not evaluated by them, or
-    not with columns.
+    `function` is `None` if its formulas are used; `difference` says why its formulas, or columns,
+    are not used.
     """
 
     function: BlockFunction | None
@@ -92,7 +92,7 @@ class Checked(NamedTuple):
 
 
 def checked(measurement: Measurement, model: _gumption.Model, aliases: Mapping[str, str]) -> Checked:
-    """Finds a way to evaluate a function that gives what the function gives one draw at a time.
+    """Finds a way to evaluate a function that agrees with its results for one draw at a time.
 
     Raises
     ------
@@ -134,7 +134,7 @@ def check_rows(
     estimates: Mapping[str, Column | float],
     outputs: Sequence[Column],
 ) -> None:
-    """Refuses formulas that do not give what their function gives, in some rows of budgets."""
+    """Raises an error if formulas differ from their function, in some rows of budgets."""
     count = len(outputs[0])
     rows = np.unique(np.linspace(0, count - 1, DRAWS).astype(int)) if count else np.empty(0, int)
     if not rows.size:
@@ -178,7 +178,7 @@ class _Draws:
         _compare_twice(self.measurement, self.model, at, self.one.of(self.model)(at[0]))
 
     def difference(self, found: Sequence[Column], how: str) -> str | None:
-        """Where some outputs are not those of the function, in words."""
+        """A description of where outputs differ from the function."""
         for number, (name, unit) in enumerate(self.model.outputs):
             values, truth = np.asarray(found[number]), self.truth[number]
             values, moved = values[self.places], functools.partial(self._moved, number)
@@ -196,7 +196,7 @@ class _Draws:
 
 
     def _shifts(self, output: str) -> dict[str, float]:
-        """By what the engine shifts levels between the zeros of their units and that of an output."""
+        """The shifts of levels between the zeros of their units and the zero of an output's unit."""
         found: dict[str, float] = {}
         for _, unit in self.model.inputs if _gumption.unit_within(output)[1] else []:
             if unit == output or not _gumption.unit_within(unit)[1]:
@@ -212,7 +212,7 @@ class _Draws:
         return {unit: shift for unit, shift in found.items() if abs(shift) > 1e-9}
 
     def check_that_units_are_converted(self) -> None:
-        """Refuses levels of different references where no formula tells which is converted."""
+        """Raises an error for levels with different references if no formula says which is converted."""
         for name, unit in self.model.outputs:
             for other in self._shifts(unit):
                 raise _gumption.ModelError(
@@ -221,7 +221,7 @@ class _Draws:
                 )
 
     def _moved(self, output: int, by: Callable[[int], float]) -> Column:
-        """An output where the arguments are multiplied by something."""
+        """An output for arguments multiplied by a factor."""
         moved = [column * by(i) for i, column in enumerate(self.variables)]
         return self.one.of(self.model)(moved)[output]
 
@@ -246,7 +246,7 @@ def _compare_twice(
     first: tuple[Sequence[Column], Sequence[Column]],
     again: Sequence[Column],
 ) -> None:
-    """Refuses a function that gave two values for the same arguments."""
+    """Raises an error for a function with two results for the same arguments."""
     variables, outputs = first
     for (name, unit), before, now in zip(model.outputs, outputs, again):
         # the same operations: as many roundings as a parallel sum may do in another order

@@ -1,4 +1,4 @@
-"""The program ``gumption``: the same command line as the one that Rust builds."""
+"""The program ``gumption``: the same command line as in the Rust program."""
 
 from __future__ import annotations
 
@@ -6,7 +6,7 @@ import sys
 
 
 def main() -> int:
-    """Run the command line with the arguments of the process, and give its exit code."""
+    """Run the command line with the arguments of the process, and return its exit code."""
     # nothing else is imported: the program starts at once, and no library has started threads yet,
     # which would take signals away from it
     from gumption import _gumption

@@ -1,4 +1,4 @@
-"""The other commands as functions: what they give is the answer of the command line."""
+"""The other commands as functions: they return the answers of the command line."""
 
 from __future__ import annotations
 
@@ -15,30 +15,30 @@ from gumption._result import format_of, framed
 
 
 def call(*arguments: str | os.PathLike[str]) -> bytes:
-    """Run the command line as a function: what it would print on standard output.
+    """Run the command line as a function and return its standard output.
 
     Parameters
     ----------
     *arguments : str or path-like
-        What would stand behind ``gumption``.
+        The arguments after ``gumption``.
 
     Raises
     ------
     ModelError
-        What it would say with exit code 2.
+        With the message of exit code 2.
     """
     return _gumption.call([os.fspath(argument) for argument in arguments])[0]
 
 
 class Answer(dict[str, Any]):
-    """The JSON answer of a command as a dictionary, which knows its other formats as well.
+    """The JSON answer of a command as a dictionary, with access to its other formats.
 
     Attributes
     ----------
     notes : list of str
-        What the command said on standard error.
+        The command's messages on standard error.
     yes : bool
-        Whether the answer is "yes" where the command asks something (``--fail``).
+        Whether the result is "yes" for commands with ``--fail``.
     """
 
     def __init__(
@@ -61,15 +61,15 @@ class Answer(dict[str, Any]):
         return self._call(["--format", format, "--quiet"])[0]
 
     def save(self, path: str | os.PathLike[str]) -> None:
-        """Write the answer in the format that the extension says.
+        """Write the answer in the format given by the extension.
 
         ``.html``, ``.md``, ``.tex``, ``.xlsx``, ``.txt``, ``.json``, ``.csv`` and for certificates
-        ``.xml`` (the Digital Calibration Certificate), as far as the command has them.
+        ``.xml`` (the Digital Calibration Certificate), if the command has the format.
         """
         self._call(["--format", format_of(path), "--output", os.fspath(path), "--quiet"])
 
     def to_pandas(self) -> Any:
-        """The answer as ``--format csv`` has it, a ``pandas.DataFrame``."""
+        """The answer of ``--format csv`` as a ``pandas.DataFrame``."""
         from gumption._frames import frame_of
 
         return frame_of(self.to("csv").decode())
@@ -96,7 +96,7 @@ def _asked_again(arguments: Sequence[str], source: Any, text: str | None) -> Ans
 
 
 class _Together(Answer):
-    """An answer of parts that others made."""
+    """An answer from parts that workers made."""
 
     def __init__(
         self,
@@ -125,7 +125,7 @@ class Certificate(Answer):
 
 
 def _options(**options: Any) -> list[str]:
-    """Options of the command line; what is `None` or `False` is left out."""
+    """Options of the command line; `None` and `False` are left out."""
     found: list[str] = []
     for name, value in options.items():
         option = f"--{name.replace('_', '-')}"
@@ -142,7 +142,7 @@ def _options(**options: Any) -> list[str]:
 
 
 def _given(file: Any) -> tuple[str, str | None]:
-    """A path, or ``-`` with the text that it stands for."""
+    """A path, or ``-`` with its text."""
     if isinstance(file, Mapping):
         return "-", json.dumps(file, ensure_ascii=False, allow_nan=False)
     return os.fspath(file), None
@@ -161,10 +161,10 @@ def gap(
     Parameters
     ----------
     case : path-like or mapping
-        The case: a model file with observations and candidate effects, or its content. Files that the
-        content names are looked for in the current folder.
+        The case: a model file with observations and candidate effects, or its content. The current
+        folder contains the files that the content names.
     predict : path-like, optional
-        A table of conditions at which to give the corrected prediction as well.
+        A table of conditions at which to compute the corrected prediction as well.
     seed, threads, allow_path : optional
         As on the command line.
     """
@@ -182,7 +182,7 @@ def gap_check(
     keep: str | os.PathLike[str] | None = None,
     executor: Any = None,
 ) -> Answer:
-    """Check the diagnosis blindly at a case's own design: how far its answers can be trusted.
+    """Test the diagnosis on simulated data of a case (blind).
 
     Parameters
     ----------
@@ -193,7 +193,7 @@ def gap_check(
     seed, threads, keep : optional
         As on the command line.
     executor : concurrent.futures.Executor or distributed.Client, optional
-        What shares the draws; the answer has the bytes of one made on this machine.
+        Distributes the draws; the answer has the same bytes as on this machine.
     """
     options = _options(draws=draws, seed=seed, threads=threads, keep=keep)
     path, text = _given(case)
@@ -211,7 +211,7 @@ def gap_check(
 
 
 def observe(recipe: str | os.PathLike[str] | Mapping[str, Any], *, seed: int | None = None) -> Answer:
-    """Take amplitudes, phases and delays with their uncertainties from raw recordings.
+    """Determine amplitudes, phases and delays with their uncertainties from raw recordings.
 
     Parameters
     ----------
@@ -231,19 +231,19 @@ def compare(
     correlations: str | os.PathLike[str] | None = None,
     rounding: bool = False,
 ) -> Answer:
-    """Compare results two by two (normalized errors), or those of many laboratories.
+    """Compare results in pairs (normalized errors), or results of many laboratories.
 
     Parameters
     ----------
     table : path-like or DataFrame or mapping
-        Columns ``label, x1, U1, x2, U2`` and perhaps ``k1, k2, r``; or of laboratories ``label, x, U``
-        and perhaps ``k``. A file (CSV, XLSX), or the columns themselves.
+        Columns ``label, x1, U1, x2, U2`` and optionally ``k1, k2, r``; for laboratories ``label, x,
+        U`` and optionally ``k``. A file (CSV, XLSX), or the columns themselves.
     against : path-like, optional
         Take the second results from the JSON answer of a run.
     correlations : path-like, optional
         Correlation coefficients between laboratories.
     rounding : bool, default False
-        Show the normalized errors that the printed digits allow.
+        Show the range of the normalized error that the printed digits allow.
 
     Returns
     -------
@@ -283,14 +283,14 @@ def assumptions(
     coverage: float | None = None,
     k: float | None = None,
 ) -> Answer:
-    """Test the Type B assumptions: which matter, and which the readings contradict.
+    """Test the Type B assumptions: which ones matter, and which ones the readings contradict.
 
     Parameters
     ----------
     model : path-like, Model or mapping
         The model, a file or an object.
     allow : float, optional
-        Relative change of the expanded uncertainty that is allowed; 0.05 unless given.
+        Allowed relative change of the expanded uncertainty; default 0.05.
     trials, seed, threads, coverage, k : optional
         As on the command line.
     """
@@ -339,7 +339,7 @@ def certificate(
 
 
 def diff(a: str | os.PathLike[str], b: str | os.PathLike[str]) -> Answer:
-    """Say what changed between two model files or saved results, and what it did to U."""
+    """Show what changed between two model files or saved results, and how it changed U."""
     return Answer(["diff", os.fspath(a), os.fspath(b)])
 
 
@@ -349,6 +349,6 @@ def verify() -> Answer:
 
 
 def check(file: str | os.PathLike[str] | Mapping[str, Any]) -> Answer:
-    """List all mistakes of a file, or of its content: ``{"ok": ..., "errors": [...]}``."""
+    """List all errors of a file, or of its content: ``{"ok": ..., "errors": [...]}``."""
     path, text = _given(file)
     return Answer(["check", path], None, text)

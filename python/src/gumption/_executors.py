@@ -1,8 +1,8 @@
-"""Runs that executors share: ranges of blocks are made anywhere and merged here as they come.
+"""Runs distributed by executors: workers make ranges of blocks, which are merged here in any order.
 
-What goes there and comes back are the bytes of the files of ``gumption run --blocks`` and ``gumption
-merge``, so that every part says which run, pass and blocks it is of, and a part of another one is
-refused.
+Workers receive and return the bytes of the files of ``gumption run --blocks`` and ``gumption
+merge``. Every part therefore identifies its run, pass and blocks, and a part of another run is
+rejected.
 """
 
 from __future__ import annotations
@@ -43,13 +43,13 @@ Work = tuple[Callable[..., Any], tuple[Any, ...]]
 
 
 class Lost(Exception):
-    """Work is gone, and nothing is said about the work."""
+    """Work was lost with its worker, without an error of the work itself."""
 
 
 class Workers:
-    """What takes work: an executor of ``concurrent.futures``.
+    """Workers behind an executor of ``concurrent.futures``.
 
-    A process pool that a dead process broke is replaced by one like it.
+    A process pool broken by a dead process is replaced by an equal one.
     """
 
     def __init__(self, executor: futures.Executor) -> None:
@@ -78,12 +78,12 @@ class Workers:
 
     @property
     def count(self) -> int:
-        """How many do work at a time, as far as it is known; never 0."""
+        """Number of workers, if it is known; never 0."""
         known = getattr(self._executor, "_max_workers", None)
         return known if isinstance(known, int) and known > 0 else os.cpu_count() or 1
 
     def pickled(self, what: object) -> bytes:
-        """What is told to every worker, as bytes."""
+        """The data for every worker, as bytes."""
         return pickle.dumps(what)
 
     def _result(self, future: futures.Future[Any]) -> Any:
@@ -96,10 +96,10 @@ class Workers:
         future.cancel()
 
     def done(self, work: Iterator[Work]) -> Generator[tuple[Work, Any], None, None]:
-        """All the work with what it gave, in the order in which it ends.
+        """All work items with their results, in order of completion.
 
-        Never more is under way than the workers need, so that what waits here does not grow. Work that
-        is lost with its worker is done again.
+        Only as many items are submitted as the workers need, so that the queue does not grow. Work
+        lost with its worker is repeated.
         """
         # with how often it was lost
         waiting: dict[futures.Future[Any], tuple[Work, int]] = {}
@@ -144,7 +144,7 @@ class Workers:
             return self._executor.submit(function, *arguments)
 
     def _replace(self, error: futures.BrokenExecutor) -> None:
-        """Takes a new pool in place of one that a dead process broke."""
+        """Replaces a pool broken by a dead process."""
         broken = self._executor
         if not isinstance(broken, futures.ProcessPoolExecutor):
             raise error
@@ -162,8 +162,8 @@ class Workers:
 class _DaskWorkers(Workers):
     """The workers behind a Dask client.
 
-    The client's own executor never ends what is cancelled on the way, as by a scheduler that is
-    started again.
+    The client's own executor never finishes work that is cancelled, for example by a restarted
+    scheduler.
     """
 
     def __init__(self, client: Any) -> None:
@@ -240,7 +240,7 @@ def _pieces(missing: Sequence[tuple[int, int]], length: int) -> Iterator[tuple[i
 
 
 def _missing(there: Sequence[tuple[int, int]], blocks: int) -> list[tuple[int, int]]:
-    """The ranges of blocks that are not there yet."""
+    """The missing ranges of blocks."""
     found, next_ = [], 0
     for start, end in [*sorted(there), (blocks, blocks)]:
         if start > next_:
@@ -266,15 +266,15 @@ def run_on(
     model, options : Model, dict
         The run.
     executor : concurrent.futures.Executor or distributed.Client
-        What makes its parts.
+        Makes the parts.
     parts : int, optional
-        Into how many parts each pass is cut.
+        Number of parts of each pass.
     resume : path-like, optional
-        A folder in which parts are kept, and taken from where they are there.
+        A folder in which parts are kept and from which existing parts are taken.
     with_quantiles : bool
-        Whether to make what a result file holds as well.
+        Whether to compute the quantiles of a result file as well.
     told : callable, optional
-        Called with the trials that are made, over all passes.
+        Called with the number of completed trials, over all passes.
     """
     if resume is not None:
         model._refuse_function("resume")
@@ -308,7 +308,7 @@ def run_on(
 
 
 def _length(blocks: int, parts: int | None, workers: int) -> int:
-    """How many blocks a part has."""
+    """Number of blocks of a part."""
     if parts is not None:
         return max(1, -(-blocks // parts))
     usual = -(-blocks // max(FEWEST_PARTS, PARTS_OF_WORKER * workers))
@@ -316,7 +316,7 @@ def _length(blocks: int, parts: int | None, workers: int) -> int:
 
 
 class _Progress:
-    """Tells of the trials that are made."""
+    """Reports the number of completed trials."""
 
     def __init__(self, trials_of_block: float, told: Callable[[int], object] | None) -> None:
         self._rate, self._told, self._blocks = trials_of_block, told, 0
@@ -333,7 +333,7 @@ def _made(
     keep: Callable[[bytes], object] | None,
     progress: _Progress,
 ) -> Generator[bytes, None, None]:
-    """The parts of a pass as they come, those first that are there."""
+    """The parts of a pass in order of completion, existing ones first."""
     for path, start, end in kept:
         with open(path, "rb") as file:
             yield file.read()
@@ -347,7 +347,7 @@ def _made(
 
 
 def _draws(case: bytes, threads: int, start: int, end: int) -> bytes:
-    """Some draws of a blind check, as a worker makes them."""
+    """Some draws of a blind test, as a worker makes them."""
     text, held, options = pickle.loads(case)
     with tempfile.TemporaryDirectory() as folder:
         file = os.path.join(folder, "draws")
@@ -365,7 +365,7 @@ def drawn_on(
     threads: int,
     executor: Any,
 ) -> list[bytes]:
-    """The draws of a blind check, made with an executor, as the files of ``gap-check --partial``."""
+    """The draws of a blind test, made with an executor, as the files of ``gap-check --partial``."""
     with Workers.of(executor) as workers:
         case = workers.pickled((text, list(held), list(options)))
         length = max(1, -(-draws // (PARTS_OF_WORKER * workers.count)))

@@ -29,7 +29,7 @@ def columns(table: Any) -> dict[str, Any]:
 
 
 def unit_of(column: Any) -> str | None:
-    """The unit that a column knows itself."""
+    """The unit stored with a column."""
     if is_pint(column):
         return pint_unit(column)
     if is_astropy(column):
@@ -51,7 +51,7 @@ def numbers(column: Any) -> Any:
 
 
 def csv(table: Mapping[str, Any]) -> bytes:
-    """A table as the text of a file, numbers in the shortest text that reads back as the same."""
+    """A table as CSV text; numbers have the shortest text that reads back as the same number."""
     out = io.StringIO()
     out.write(",".join(table) + "\n")
     for row in zip(*(values.tolist() for values in table.values())):
@@ -60,7 +60,7 @@ def csv(table: Mapping[str, Any]) -> bytes:
 
 
 def condition_file(table: Any, units: Mapping[str, str]) -> tuple[dict[str, Any], dict[str, bytes]]:
-    """The conditions of a model file whose rows are those of a table, and the table as its file."""
+    """The conditions of a model file with the rows of a table, and the table as a file."""
     found = columns(table)
     missing = [name for name in units if name not in found]
     if missing:
@@ -79,7 +79,7 @@ def condition_file(table: Any, units: Mapping[str, str]) -> tuple[dict[str, Any]
 
 
 def frame_of(text: str) -> Any:
-    """A table of an answer as a ``pandas.DataFrame``: numbers to their last bit, empty cells missing."""
+    """A table of an answer as a ``pandas.DataFrame``: exact numbers, and missing values for empty cells."""
     import csv as reader
 
     import pandas

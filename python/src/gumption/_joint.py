@@ -1,8 +1,8 @@
-"""Results of models that go back to the same quantities, evaluated together with these.
+"""Results of models that depend on the same quantities, evaluated together with them.
 
-A result that is an input of another model is drawn from its own distribution. Where two of them, or one
-and another input, go back to one `Input`, that would lose what they share: then the formulas of their
-models are put into the new one, so that the quantity is drawn once.
+A result that is an input of another model is drawn from its own distribution. If two such results,
+or a result and another input, depend on the same `Input`, this would lose their correlation. The
+formulas of their models are then inserted into the new model, so that the quantity is drawn once.
 """
 
 from __future__ import annotations
@@ -35,7 +35,7 @@ def is_output(value: object) -> bool:
 
 
 def identity_of(value: Any) -> object:
-    """What is the same for two values that are one quantity."""
+    """The identity of a quantity, which is equal for two values of one quantity."""
     if isinstance(value, Input):
         return value.identity
     if is_output(value):
@@ -44,7 +44,7 @@ def identity_of(value: Any) -> object:
 
 
 def _origins(value: Any) -> Iterator[tuple[object, Any]]:
-    """Identities of all that a value goes back to, with what they are of."""
+    """The identities of all quantities on which a value depends, with the quantities."""
     if isinstance(value, Input):
         if value.spec.get("distribution") != "constant":
             yield value.identity, value
@@ -59,16 +59,16 @@ def _origins(value: Any) -> Iterator[tuple[object, Any]]:
 
 
 class Joint:
-    """Quantities of several models as those of one file.
+    """Quantities of several models combined in one file.
 
     Attributes
     ----------
     expanded : list of str
         The results that became formulas.
     inputs, equations : dict
-        What is added to the file.
+        The additions to the file.
     known : dict of str to object
-        What is known about the inputs that are added.
+        The added inputs.
     held : dict of str to bytes
         Files that they name.
     links : list of (str, str, float)
@@ -96,14 +96,14 @@ class Joint:
         taken: Iterable[str],
         check_units: bool,
     ) -> Joint | None:
-        """The models behind those values that go back to what other values go back to as well.
+        """The combined models of values that share quantities with other values.
 
-        ``equations`` then has those values by their own names. `None` where nothing is shared.
+        ``equations`` then contains those values under their own names. `None` if nothing is shared.
 
         Raises
         ------
         ModelError
-            Where something is shared and the models cannot be evaluated together.
+            If quantities are shared but the models cannot be evaluated together.
         """
         together = _sharing(known)
         if not together:
@@ -138,7 +138,7 @@ class Joint:
         return name
 
     def _output(self, output: Output) -> str:
-        """The name of an output of a result; the quantities that it goes back to are added."""
+        """The name of an output of a result; the quantities on which it depends are added."""
         result = output._result
         if result.model._known is None:
             return self._input(output, output.name, output.unit)
@@ -211,7 +211,7 @@ class _NotTogether(Exception):
 
 
 def _sharing(known: Mapping[str, Any]) -> list[str]:
-    """The values that go back to what a value of another run goes back to as well."""
+    """The values that share a quantity with a value of another run."""
     owners: dict[object, dict[object, list[str]]] = {}
     numbers: dict[str, Any] = {}
     groups: dict[str, object] = {}

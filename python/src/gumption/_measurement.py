@@ -24,24 +24,24 @@ from gumption._trace import NotTraceable, Traced, decision_formulas, equations
 
 
 class NotTracedWarning(UserWarning):
-    """A function is evaluated by Python, which is slower, since it could not be traced."""
+    """Python evaluates a function, which is slower, because it could not be traced."""
 
 
 class Measurement:
     """A measurement model that is a Python function; `model` makes it.
 
-    Called with what is known about the inputs it gives a `Model`.
+    Called with its inputs it returns a `Model`.
 
     Attributes
     ----------
     function : callable
-        The function as it was written.
+        The original function.
     inputs, outputs, conditions : dict of str to str
         Their names and units.
     equations : dict of str to str or None
-        The formulas that were traced; `None` where the function could not be.
+        The traced formulas; `None` if tracing failed.
     why_not_traced : str or None
-        Why it could not be.
+        Why tracing failed.
     """
 
     def __init__(
@@ -102,7 +102,7 @@ class Measurement:
             self.why_not_traced = f"{type(error).__name__}: {error}"
 
     def _check_decision(self, decision: Traced) -> None:
-        """Refuses a decision by quantities of different dimensions."""
+        """Raises an error for a comparison of quantities with different dimensions."""
         taken = [*self.arguments, *self.outputs]
         name = "decision"
         while name in taken:
@@ -129,21 +129,21 @@ class Measurement:
             ) from None
 
     def _units_within(self) -> str:
-        """In which units the function computes, in words."""
+        """The units in which the function computes, in words."""
         within = {name: _gumption.unit_within(unit)[0] for name, unit in self.arguments.items()}
         declared = self.arguments.items()
         units = [f"`{n}` is in {within[n]} (declared in {u})" for n, u in declared if within[n] != u]
         return f"Within the function {', '.join(units)}." if units else ""
 
     def called(self, values: Mapping[str, Any]) -> Mapping[str, Any]:
-        """What the function gives for a value of each argument, by the names of the outputs."""
+        """The results of the function for one value of each argument, by the names of the outputs."""
         return self._named(self._call(values))
 
     def _call(self, values: Mapping[str, Any]) -> Any:
         return self._arguments.call(self.function, values)
 
     def _named(self, found: Any) -> Mapping[str, Any]:
-        """Which of what the function gave is which output."""
+        """The results of the function by output."""
         names = list(self.outputs)
         if isinstance(found, Mapping):
             missing = [name for name in names if name not in found]
@@ -189,12 +189,12 @@ class Measurement:
         tolerance: Mapping[str, Mapping[str, float]] | None = None,
         **named: Any,
     ) -> Model:
-        """The model with what is known about its inputs.
+        """The model with its inputs.
 
         Parameters
         ----------
         *arguments, **named
-            What is known about each input: `Input` objects, numbers (known exactly), pairs of
+            The inputs: `Input` objects, numbers (exactly known), pairs of
             estimate and standard uncertainty, outputs of results, or numbers of other libraries.
         conditions : DataFrame or mapping, optional
             A column for each condition of the model; the model is evaluated in every row. A mapping
@@ -204,9 +204,9 @@ class Measurement:
         title : str, optional
             Title of the pages; that of the function unless given.
         trials, seed, coverage_probability, coverage_factor : optional
-            As in a model file; `Model.run` may say otherwise.
+            As in a model file; `Model.run` may override them.
         tolerance : mapping, optional
-            For each output that has one its limits ``{"lower": ..., "upper": ...}``, in its unit.
+            The limits of outputs with a tolerance, ``{"lower": ..., "upper": ...}``, in its unit.
 
         Returns
         -------
@@ -297,7 +297,7 @@ class Measurement:
         return _gumption.Model(name, text, "", list(held.items()))
 
     def _warn(self, function: BlockFunction | None, difference: str | None) -> None:
-        """Says that a function is evaluated by Python, and why."""
+        """Warns that Python evaluates a function, with the reason."""
         if function is None:
             return
         if self.equations is not None:
@@ -325,7 +325,7 @@ class Measurement:
         )
 
     def _aliases(self, known: dict[str, Any]) -> dict[str, str]:
-        """Takes out of what is known the inputs that are the same quantity as one before."""
+        """Removes inputs that are the same quantity as a previous one."""
         aliases: dict[str, str] = {}
         first: dict[object, str] = {}
         for name, value in list(known.items()):
@@ -380,7 +380,7 @@ class Measurement:
         return {name: known[name] for name in names}
 
     def bulk_model(self) -> Model:
-        """The model for budgets in columns, whose inputs are all given by these."""
+        """The model for budgets in columns, in which all inputs are columns."""
         if self.equations is None:
             raise _gumption.ModelError(
                 f"`{self.title}` could not be traced ({self.why_not_traced}); budgets in columns need "
@@ -437,23 +437,23 @@ def model(
 ) -> Callable[[Callable[..., Any]], Measurement]:
     """Make a measurement model of a Python function.
 
-    The function is called once with numbers that write down what is done to them by operators and
-    functions of NumPy. What comes out is evaluated by the engine, as fast as a model file. Where the
-    function does what cannot be written down (``if`` on a value, loops over data, calls of other
-    libraries), it is evaluated by Python on blocks of the engine's draws instead, its sensitivities
-    are central differences, and a `NotTracedWarning` says so.
+    The function is called once with numbers that record operators and functions of NumPy. The
+    engine evaluates the recorded formulas as fast as a model file. If the function does something
+    that cannot be recorded (``if`` on a value, loops over data, calls of other
+    libraries), Python evaluates it on blocks of the engine's draws instead, with central
+    differences as sensitivity coefficients, and a `NotTracedWarning` is issued.
 
-    Quantities within the function are in coherent SI units, radians for angles, and their
-    dimensions are checked. A number is a number; `quantity` makes a quantity of one.
+    Quantities within the function are in coherent SI units, angles in radians, and their dimensions
+    are checked. A plain number is dimensionless; `quantity` gives it a unit.
 
     Parameters
     ----------
     inputs : mapping of str to str
         Names of the function's arguments and the units of these quantities.
     outputs : mapping of str to str
-        Names and units of what it gives, in order: one value, a sequence, or a mapping by name.
+        Names and units of its results, in order: one value, a sequence, or a mapping by name.
     conditions : mapping of str to str, optional
-        Further arguments that are set and known, with their units.
+        Further arguments for exactly known conditions, with their units.
     title : str, optional
         Title of pages; the first line of the docstring unless given.
     check_units : bool, default True
@@ -462,10 +462,10 @@ def model(
     trace : bool, default True
         Whether to trace the function.
     check : bool, default True
-        Whether to hold it against itself when a model is made: it is called with 32 draws of its inputs
-        one at a time, and where what was traced, or what comes of whole columns of draws, differs from
-        that, the function is evaluated one draw at a time and a `NotTracedWarning` shows the difference.
-        A function that does not give the same value twice is refused.
+        Whether to check it when a model is made: it is called with 32 draws of its inputs one at a
+        time. If the traced formulas, or calls with whole columns of draws, give other results, the
+        function is evaluated one draw at a time, and a `NotTracedWarning` shows the difference. A
+        function that does not return the same value twice raises an error.
 
     Returns
     -------

@@ -20,7 +20,7 @@ if TYPE_CHECKING:
 
 
 class Model:
-    """A measurement model with what is known about its inputs; it does not change.
+    """A measurement model with its inputs; it is immutable.
 
     `load`, `from_dict`, `from_json` and `Measurement` make models. They pickle.
     """
@@ -75,7 +75,7 @@ class Model:
 
     @property
     def warnings(self) -> list[dict[str, str]]:
-        """Notes on what was read, each with ``code``, ``where`` and ``text``."""
+        """Notes on the file, each with ``code``, ``where`` and ``text``."""
         return [{"code": c, "where": w, "text": t} for c, w, t in self._rust.warnings]
 
     @property
@@ -112,23 +112,23 @@ class Model:
     ) -> Result:
         """Evaluate by the law of propagation (JCGM 100) and by Monte Carlo (JCGM 101).
 
-        Other threads of Python run on meanwhile, and Ctrl-C ends the run at once. What is not given
-        is as the model file says. The result has the same bits on any number of threads, and those
+        Other Python threads continue meanwhile, and Ctrl-C ends the run at once. Settings that are
+        not given are those of the model file. The result has the same bits on any number of threads, and those
         of ``gumption run``.
 
         Parameters
         ----------
         trials : int or "adaptive", optional
-            Number of trials; 0 for the law of propagation alone, ``"adaptive"`` for as many as the
+            Number of trials; 0 for only the law of propagation, ``"adaptive"`` for as many as the
             digits need (JCGM 101, 7.9).
         seed : int, optional
             Seed of the random streams.
         coverage : float, optional
             Coverage probability.
         k : float, optional
-            Coverage factor for infinite degrees of freedom in place of `coverage`.
+            Coverage factor for infinite degrees of freedom instead of `coverage`.
         digits : int, optional
-            Significant digits of the standard uncertainty that are held meaningful (clause 8).
+            Number of significant digits of the standard uncertainty that are regarded as meaningful (clause 8).
         real_dof : bool, default False
             Take the coverage factor at the real number of effective degrees of freedom.
         validate : bool, default False
@@ -136,7 +136,7 @@ class Model:
         rule : {"7.9", "stein"}, optional
             When an adaptive run stops.
         method : {"auto", "monte-carlo", "exact", "quasi"}, optional
-            Which figures without the noise of trials stand beside those of the trials.
+            Method for additional results without the noise of trials.
         max_trials : int, optional
             Largest number of trials of an adaptive run.
         threads : int, optional
@@ -144,22 +144,22 @@ class Model:
         memory : int, optional
             Bytes for kept values of trials; 64 MiB unless given.
         progress : bool or callable, default False
-            Show a bar of ``tqdm``, or call this now and then with the trials that are made.
+            Show a bar of ``tqdm``, or call this from time to time with the number of completed trials.
         executor : concurrent.futures.Executor or distributed.Client, optional
-            What shares the run: a process pool, a Dask client. Ranges of blocks of trials are made by
-            its workers, on one thread each unless `threads` says otherwise, and merged here as they
-            come; rows of conditions are shared likewise. The result has the bits of a run on this
-            machine, and a part that is lost with its worker is made again.
+            Distributes the run: a process pool, a Dask client. Its workers make ranges of blocks of
+            trials, on one thread each unless `threads` is given, which are merged here in any
+            order; rows of conditions are distributed likewise. The result has the same bits as on
+            this machine, and a part lost with its worker is repeated.
         parts : int, optional
-            With `executor`, into how many parts each pass over the trials is cut; unless given 64, or 8
-            for each worker, or what makes no part longer than 134 million trials.
+            With `executor`, the number of parts of each pass over the trials; the default is 64, or
+            8 for each worker, or enough that no part is longer than 134 million trials.
         resume : path-like, optional
-            With `executor`, a folder in which the parts are kept: a run that was stopped goes on from
-            those that are there. ``gumption run --resume`` and ``gumption merge`` take it as well.
+            With `executor`, a folder in which the parts are kept: a stopped run continues from
+            these parts. ``gumption run --resume`` and ``gumption merge`` accept it as well.
         to_save : bool, default False
-            With `executor`, let the workers also make what `Result.save` and inputs of other models
-            need, which takes a pass more where the trials do not fit into `memory`; else it is made on
-            this machine when it is asked for.
+            With `executor`, let the workers also compute the quantiles for `Result.save` and for
+            inputs of other models, which takes another pass if the trials do not fit into `memory`;
+            otherwise this machine computes them on demand.
 
         Returns
         -------
@@ -201,7 +201,7 @@ class Model:
         return self._rust.parts(options, self._columns())
 
     def _columns(self) -> Callable[[list[Any]], list[Any]] | None:
-        """The function over columns of a model that is not traced, which is to be the one it was."""
+        """The function over columns of a model that is not traced, checked to be unchanged."""
         if self._held is not None:
             self._held.check_unchanged()
         return None if self._function is None else self._function.of(self._rust)
@@ -210,7 +210,7 @@ class Model:
     def _bar(
         self, options: Mapping[str, Any], progress: bool | Callable[[int], object]
     ) -> Iterator[Callable[[int], object] | None]:
-        """What is told of the trials that are made."""
+        """The progress callback."""
         if progress is False:
             yield None
         elif callable(progress):
@@ -231,7 +231,7 @@ class Model:
             return self._rust.run(options, told, self._columns())
 
     def set(self, *replacements: str, **values: Any) -> Model:
-        """The model with other estimates or fields of inputs, as ``--set`` has them.
+        """The model with replaced estimates or fields of inputs, as for ``--set``.
 
         Limits move along with an estimate, and widths follow their specification.
 
@@ -240,8 +240,8 @@ class Model:
         *replacements : str
             ``"NAME=35 deg"`` or ``"NAME.half_width=0.2"``.
         **values
-            An estimate for an input, in its unit or as a text with one. Two underscores stand for the
-            point of a field: ``tilt__half_width=0.2``.
+            An estimate for an input, in its unit or as a text with one. Two underscores replace the
+            point before a field: ``tilt__half_width=0.2``.
         """
         self._refuse_function("set")
         named = [f"{name.replace('__', '.')}={value}" for name, value in values.items()]
@@ -256,14 +256,14 @@ class Model:
         correlations: Sequence[tuple[str, str, float]] | None = None,
         **named: Any,
     ) -> Model:
-        """The model with something else known about some inputs.
+        """The model with some inputs replaced.
 
         Parameters
         ----------
         inputs : mapping, optional
-            What is known, as `Measurement` takes it, by the names of the inputs.
+            The new inputs by name, in the forms that `Measurement` accepts.
         correlations : sequence of (str, str, float), optional
-            Correlation coefficients in place of those of the model.
+            Correlation coefficients instead of those of the model.
         **named
             The same as `inputs`.
         """
@@ -291,8 +291,8 @@ class Model:
         table : DataFrame or mapping
             A column for each condition of the model.
         units : mapping of str to str, optional
-            Units of the columns; those of the model's conditions unless given, or unless a column
-            knows its own.
+            Units of the columns; by default those of the model's conditions, or those stored with
+            the columns.
         """
         self._refuse_function("with_conditions")
         own = {**self.conditions, **(units or {})}
@@ -313,7 +313,7 @@ class Model:
         return self._derived(made, known)
 
     def _derived(self, rust: _gumption.Model, known: Mapping[str, Any] | None) -> Model:
-        """A model of the same formulas, held against the function that they are of."""
+        """A model with the same formulas, checked against their function."""
         held = self._held.of(rust) if self._held is not None else None
         return Model._of(rust, known=known, held=held)
 
@@ -357,23 +357,23 @@ def take_inputs(
     units: Mapping[str, str],
     kept: Mapping[str, Any],
 ) -> tuple[dict[str, bytes], dict[str, Any]]:
-    """Writes what is known about inputs into a model file.
+    """Writes inputs into a model file.
 
-    Results that go back to what other inputs go back to are put in as the formulas of their models.
+    Results that share quantities with other inputs are inserted as the formulas of their models.
 
     Parameters
     ----------
     file : dict
         The file, whose ``inputs``, ``equations`` and ``correlations`` are added to.
     given, units : mapping
-        What is known about some of its inputs, and the units that hold where that has none.
+        Some of its inputs, and the units of inputs without a unit.
     kept : mapping
-        What is known about its other inputs.
+        Its other inputs.
 
     Returns
     -------
     dict of str to bytes, dict of str to object
-        The files that the inputs name, and what is known about all inputs.
+        The files that the inputs name, and all inputs.
     """
     held: dict[str, bytes] = {}
     taken = [name for key in ("inputs", "equations", "outputs", "conditions") for name in file.get(key, ())]
@@ -430,23 +430,24 @@ def load(
 ) -> Model:
     """Read a model file, or the model that another file carries.
 
-    A workbook of a run (``--format xlsx``) carries its model file, and a Digital Calibration
-    Certificate of gumption those of its results; what people changed in cells or values is not taken.
-    Of any other certificate (2.4 to 3.3) every stated value is an input and an output.
+    A workbook of a run (``--format xlsx``) contains its model file, and a Digital Calibration
+    Certificate of gumption contains those of its results; later changes of cells or values are
+    ignored. For any other certificate (2.4 to 3.3) every stated value becomes an input and an
+    output.
 
     Parameters
     ----------
     path : path-like
-        The file. What it names is looked for in its folder.
+        The file. Its folder contains the files that it names.
     model : str, optional
         Which one of several models that a certificate carries.
     set : mapping or sequence of str, optional
-        Other estimates or fields of inputs, as ``--set`` has them: ``{"tilt": "36 deg"}`` or
+        Replaced estimates or fields of inputs, as for ``--set``: ``{"tilt": "36 deg"}`` or
         ``["tilt.half_width=0.2"]``.
     allow_path : sequence of path-like, optional
-        Folders beside its own that the file may name files in.
+        Other folders in which the file may name files.
     accept_changed : bool, default False
-        Take saved results that were changed since they were written.
+        Accept saved results that were changed after they were written.
 
     Returns
     -------
@@ -455,7 +456,7 @@ def load(
     Raises
     ------
     ModelError
-        With all mistakes of the file and their places.
+        With all errors of the file and their positions.
     """
     items = [f"{name}={value}" for name, value in set.items()] if isinstance(set, Mapping) else set
     allowed = [os.fspath(folder) for folder in allow_path]
@@ -499,9 +500,9 @@ def from_json(text: str, *, name: str = "<json>", folder: str | os.PathLike[str]
     text : str
         The text.
     name : str, optional
-        What messages call it.
+        Its name in messages.
     folder : path-like, optional
-        Where the files are that it names; the current folder unless given.
+        The folder of the files that it names; default is the current folder.
     """
     return Model._of(_gumption.Model(name, text, os.fspath(folder)))
 
@@ -513,7 +514,7 @@ def from_dict(
     folder: str | os.PathLike[str] = "",
     conditions: Any = None,
 ) -> Model:
-    """Make a model of a dictionary as a model file has it.
+    """Make a model from a dictionary with the keys of a model file.
 
     Inputs may be whatever `Measurement` takes: `Input` objects, outputs of results, numbers of
     other libraries. ``format`` may be left out.
@@ -523,9 +524,9 @@ def from_dict(
     file : mapping
         The keys of a model file.
     name : str, optional
-        What messages call it.
+        Its name in messages.
     folder : path-like, optional
-        Where the files are that it names; the current folder unless given.
+        The folder of the files that it names; default is the current folder.
     conditions : DataFrame or mapping, optional
         The rows of the conditions; ``file["conditions"]`` then has their units only, as
         ``{"f": "Hz"}`` or ``{"f": {"unit": "Hz"}}``.

@@ -1,7 +1,7 @@
-"""Numbers of other libraries as inputs, with what they share.
+"""Numbers of other libraries as inputs, with their correlations.
 
-No library is imported here that the caller has not imported: numbers are told by where their type
-comes from.
+This module imports no library that the caller has not imported: it recognizes numbers by the module
+of their type.
 """
 
 from __future__ import annotations
@@ -45,7 +45,7 @@ def is_frozen(value: object) -> bool:
 
 
 def _product(powers: Mapping[str, Any]) -> str:
-    """A unit of these factors, as unit texts have it."""
+    """A unit text with these factors."""
     names = {"delta_degree_Celsius": "K", "Δ°C": "K", "°C": "degC", "°": "deg", "Ω": "ohm"}
     parts = []
     for name, power in powers.items():
@@ -71,7 +71,7 @@ def astropy_unit(value: Any) -> tuple[float, str]:
 
 
 def _frozen(value: Any) -> Input:
-    """A frozen distribution of ``scipy.stats`` as the shape that it is."""
+    """A frozen distribution of ``scipy.stats`` as a distribution of model files."""
     name = value.dist.name
     shapes, loc, scale = value.dist._parse_args(*value.args, **value.kwds)
     loc, scale = float(loc), float(scale)
@@ -121,7 +121,7 @@ def _normal(x: Any, u: Any, dof: Any = math.inf) -> Input:
 
 
 def as_input(value: Any, name: str = "the input") -> Input:
-    """What is known about an input, of a number of any library.
+    """An input from a number of any library.
 
     Parameters
     ----------
@@ -173,19 +173,19 @@ def as_input(value: Any, name: str = "the input") -> Input:
 
 
 def is_number(value: Any) -> bool:
-    """Whether it is a number of a library that knows what it shares with others."""
+    """Whether it is a number of a library that tracks correlations."""
     inner = _inner(value)
     return is_ufloat(inner) or is_gtc(inner)
 
 
 def as_known(value: Any, name: str) -> Any:
-    """A value that knows what it shares with others: an `Input`, an output of a result, or a number of
+    """A value that tracks its correlations: an `Input`, an output of a result, or a number of
     ``uncertainties`` or ``GTC``."""
     return value if hasattr(value, "_as_input") or is_number(value) else as_input(value, name)
 
 
 def as_alone(value: Any, name: str) -> Input:
-    """What is known about an input, of an output of a result by its estimate and standard uncertainty."""
+    """An input; for an output of a result from its estimate and standard uncertainty."""
     if not hasattr(value, "_as_input"):
         return as_input(value, name)
     u = value.gum.standard_uncertainty
@@ -194,7 +194,7 @@ def as_alone(value: Any, name: str) -> Input:
 
 
 def unit_of(value: Any) -> str | None:
-    """The unit that a value has itself."""
+    """The unit stored with a value."""
     if isinstance(value, Input) or hasattr(value, "_as_input"):
         unit = value.unit
         assert unit is None or isinstance(unit, str)
@@ -207,7 +207,7 @@ def _inner(value: Any) -> Any:
 
 
 def shared(values: Mapping[str, Any]) -> list[tuple[str, str, float]]:
-    """Correlation coefficients of numbers that go back to the same ones."""
+    """Correlation coefficients of numbers that depend on the same variables."""
     found: list[tuple[str, str, float]] = []
     named = [(name, _inner(value)) for name, value in values.items()]
     floats = [(name, value) for name, value in named if is_ufloat(value) and value.std_dev > 0]

@@ -1,4 +1,4 @@
-"""What a run gave."""
+"""The result of a run."""
 
 from __future__ import annotations
 
@@ -32,7 +32,7 @@ FORMATS = {
 
 
 def format_of(path: str | os.PathLike[str]) -> str:
-    """The format that the extension of a file says."""
+    """The format for the extension of a file."""
     extension = os.path.splitext(os.fspath(path))[1].lower()
     if extension not in FORMATS:
         known = ", ".join(FORMATS)
@@ -41,7 +41,7 @@ def format_of(path: str | os.PathLike[str]) -> str:
 
 
 def framed(page: str) -> str:
-    """A page in a frame of its own, so that its look and that of a notebook do not mix."""
+    """A page in its own frame, so that its style and that of a notebook do not interfere."""
     return (
         f'<iframe srcdoc="{html.escape(page)}" style="width:100%;height:36em;border:0" '
         'title="gumption"></iframe>'
@@ -49,7 +49,7 @@ def framed(page: str) -> str:
 
 
 class _Figures:
-    """Figures of one output by one method."""
+    """Results for one output by one method."""
 
     _method = ""
 
@@ -71,7 +71,7 @@ class _Figures:
 class Gum(_Figures):
     """One output by the law of propagation (JCGM 100).
 
-    With conditions every figure is an array of one entry a row. What is not defined is NaN.
+    With conditions every value is an array with one entry per row. Undefined values are NaN.
     """
 
     _method = "gum"
@@ -88,7 +88,7 @@ class Gum(_Figures):
 
     @property
     def dof(self) -> Figure:
-        """Effective degrees of freedom; infinite where every contribution's are."""
+        """Effective degrees of freedom; infinite if those of every contribution are."""
         return self._figure("dof")
 
     @property
@@ -110,7 +110,7 @@ class Gum(_Figures):
 class MonteCarlo(_Figures):
     """One output by the Monte Carlo method (JCGM 101).
 
-    With conditions every figure is an array of one entry a row. What is not defined is NaN.
+    With conditions every value is an array with one entry per row. Undefined values are NaN.
     """
 
     _method = "monte_carlo"
@@ -159,7 +159,7 @@ class MonteCarlo(_Figures):
 class Budget(Mapping[str, Any]):
     """The budget of one output: columns by name, one entry a line.
 
-    The lines are the inputs, then correlation coefficients, ``r(a, b)``, which have a share only.
+    The lines are the inputs, then correlation coefficients, ``r(a, b)``, which have only a share.
     Columns are ``input``, ``unit``, ``estimate``, ``standard_uncertainty``, ``distribution``, ``type``,
     ``group``, ``dof``, ``sensitivity``, ``contribution`` and ``share``; they are attributes as well.
     """
@@ -199,8 +199,8 @@ class Budget(Mapping[str, Any]):
 class Output:
     """One output of a result.
 
-    It stands for itself as an input of another model: its distribution, and how it varies together
-    with the other outputs of the same result and with what they share with other results.
+    It can be an input of another model, with its distribution and with its correlations with other
+    outputs of the same result and with other results.
     """
 
     def __init__(self, result: Result, name: str) -> None:
@@ -224,7 +224,7 @@ class Output:
 
     @property
     def budget(self) -> Budget:
-        """The budget, with conditions that of the first row; `budget_at` has the others."""
+        """The budget; with conditions, for the first row, and `budget_at` has the others."""
         return self.budget_at(0)
 
     def budget_at(self, row: int) -> Budget:
@@ -238,7 +238,7 @@ class Output:
 
     @property
     def gum_valid(self) -> bool | None | npt.NDArray[np.float64]:
-        """Whether the GUM interval is valid here (JCGM 101, clause 8); `None` where undecided.
+        """Whether the GUM interval is validated (JCGM 101, clause 8); `None` if undecided.
 
         With conditions an array of 1, 0 and NaN.
         """
@@ -249,7 +249,7 @@ class Output:
 
     @property
     def conformance_probability(self) -> Figure:
-        """The probability of conformance to the output's tolerance; NaN where it has none."""
+        """The probability of conformance to the output's tolerance; NaN without a tolerance."""
         return self._figure("conformity.probability")
 
     def samples(self, row: int = 0) -> Samples:
@@ -259,7 +259,7 @@ class Output:
         return found
 
     def to_dict(self) -> dict[str, Any]:
-        """The output as the JSON answer has it, with conditions that of the first row."""
+        """The output as in the JSON answer; with conditions, for the first row."""
         answer = self._result.to_dict()
         found = answer["rows"][0] if "rows" in answer else answer
         output = found["outputs"][self.name]
@@ -284,10 +284,10 @@ class Output:
 
 
 class Result(Mapping[str, Output]):
-    """What a run gave: a mapping from the names of outputs to `Output` objects.
+    """The result of a run: a mapping from the names of outputs to `Output` objects.
 
-    A result pickles as its model, seed and settings, and is computed again when it is needed: that
-    gives the same bits.
+    A result is pickled as its model, seed and settings, and recomputed when it is needed, with the
+    same bits.
     """
 
     def __init__(
@@ -376,7 +376,7 @@ class Result(Mapping[str, Output]):
         return frame.set_index(index)
 
     def samples(self, name: str | None = None, row: int = 0) -> Any:
-        """The trials, made again: the bits are those of the run.
+        """The trials, recomputed with the bits of the run.
 
         Parameters
         ----------
@@ -401,7 +401,7 @@ class Result(Mapping[str, Output]):
         return self._saved
 
     def save(self, path: str | os.PathLike[str]) -> None:
-        """Write the result file, from which inputs of other models are taken."""
+        """Write the result file, which inputs of other models can use."""
         _write(path, self.saved().encode())
 
     def to(self, format: str) -> bytes:  # noqa: A002 - the name that the command line has
@@ -417,7 +417,7 @@ class Result(Mapping[str, Output]):
         return bytes(self._run.formatted(format))
 
     def write(self, path: str | os.PathLike[str]) -> None:
-        """Write a page or an answer in the format that the extension says.
+        """Write a page or an answer in the format for the extension.
 
         Extensions are ``.html``, ``.xlsx``, ``.md``, ``.tex``, ``.txt``, ``.json`` and ``.csv``, and
         ``.npy`` for the trials.
@@ -434,7 +434,7 @@ class Result(Mapping[str, Output]):
         Parameters
         ----------
         outputs : str or list of str, optional
-            Which outputs; all of them unless given.
+            The outputs; all by default.
         row : int, optional
             With conditions, the row whose distributions are drawn.
 
@@ -471,7 +471,7 @@ class Result(Mapping[str, Output]):
 
 
 def _write(path: str | os.PathLike[str], content: bytes) -> None:
-    """A file that is there whole or as it was."""
+    """Writes a file completely or not at all."""
     import tempfile
 
     folder = os.path.dirname(os.path.abspath(os.fspath(path)))

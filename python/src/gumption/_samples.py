@@ -1,4 +1,4 @@
-"""Trials as arrays for NumPy, and without a copy for whoever speaks Arrow."""
+"""Trials as arrays for NumPy, and without a copy for libraries that support Arrow."""
 
 from __future__ import annotations
 

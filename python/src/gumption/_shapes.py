@@ -1,7 +1,7 @@
-"""What is known about an input quantity: every shape of a model file as a function.
+"""Input quantities: every distribution of a model file as a function.
 
-Each function gives an `Input`. The keys of a model file's input that have no argument of their own go
-in as further keyword arguments: ``about`` (the source of uncertainty in words), ``type`` (``"A"`` or
+Each function returns an `Input`. Keys of a model file's input without an argument of their own are
+further keyword arguments: ``about`` (the source of uncertainty in words), ``type`` (``"A"`` or
 ``"B"``), ``group``, ``per`` (``"row"`` or the name of a condition), ``evidence`` and so on.
 
 A width (``std``, ``half_width``, ``expanded``, ``scale``) is a number in the input's unit, or a
@@ -23,26 +23,26 @@ Value = Union[float, str]
 
 
 class Input:
-    """What is known about an input quantity, as it stands in a model file.
+    """An input quantity, as in a model file.
 
     Parameters
     ----------
     spec : mapping
         The keys of the input in a model file, its unit left out.
     unit : str, optional
-        The unit; that which the model asks for unless given.
+        The unit; by default that of the model.
     held : iterable of (str, bytes)
         Files that the keys name, by their names.
     identity : str, optional
-        What tells the quantity from all others; a new one unless given.
+        The identity of the quantity; by default a new one.
     parts : iterable of str
         The identities of its components.
 
     Notes
     -----
     An object is one quantity, wherever it is given: for two inputs of a model, which then always have
-    the same value, or in models whose results are inputs of another one. Copies and what was pickled
-    are the same quantity.
+    the same value, or in models whose results are inputs of another one. Copies and unpickled
+    objects are the same quantity.
     """
 
     __slots__ = ("held", "identity", "parts", "spec", "unit")
@@ -62,7 +62,7 @@ class Input:
         self.parts: tuple[str, ...] = tuple(parts)
 
     def to_dict(self, unit: str = "1") -> dict[str, Any]:
-        """The input as it stands in a model file; `unit` holds where it has none of its own."""
+        """The input as in a model file; `unit` is used if it has none of its own."""
         return {"unit": self.unit if self.unit is not None else unit, **self.spec}
 
     def __repr__(self) -> str:
@@ -73,7 +73,7 @@ class Input:
 
 
 def plain(value: Any) -> Any:
-    """Numbers of NumPy as those of Python; what is no number as it is."""
+    """Numbers of NumPy as Python numbers; other values unchanged."""
     if isinstance(value, np.generic):
         return value.item()
     if isinstance(value, np.ndarray):
@@ -120,9 +120,9 @@ def normal(
     std : float or str, optional
         Standard uncertainty.
     unit : str, optional
-        Unit of estimate and width; that which the model asks for unless given.
+        Unit of estimate and width; by default that of the model.
     expanded : float or str, optional
-        Expanded uncertainty in place of `std`, with `k` or `p`.
+        Expanded uncertainty instead of `std`, with `k` or `p`.
     k, p : float, optional
         Coverage factor, or coverage probability, of `expanded`.
     dof : float, optional
@@ -176,7 +176,7 @@ def triangular(
     dof: float | None = None,
     **more: Any,
 ) -> Input:
-    """A triangular distribution; with limits the `mode` may lie off the middle."""
+    """A triangular distribution; with limits the `mode` need not be in the middle."""
     more = {"mode": mode, "dof": dof, **more}
     return _limits("triangular", mean, half_width, unit, lower, upper, more)
 
@@ -280,7 +280,7 @@ def log_uniform(lower: Value, upper: Value, unit: str | None = None, **more: Any
 
 
 def poisson_count(count: int, unit: str | None = None, **more: Any) -> Input:
-    """The expectation behind a count (JCGM 101, 6.4.11)."""
+    """The expected number of events for a count (JCGM 101, 6.4.11)."""
     return _shape("poisson-count", unit, {"count": count}, more)
 
 
@@ -307,9 +307,9 @@ def components(mean: Value | None, parts: Mapping[str, Input], unit: str | None 
     Parameters
     ----------
     mean : float or str or None
-        The estimate; `None` where readings among the components give it.
+        The estimate; `None` if readings among the components give it.
     parts : mapping of str to Input
-        What is known of each contribution, in the unit of the quantity; its estimate is 0.
+        The contributions, in the unit of the quantity, each with the estimate 0.
     unit : str, optional
         The unit of all.
     **more

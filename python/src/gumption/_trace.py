@@ -1,4 +1,4 @@
-"""A Python function written down as formulas: it is called once with numbers that remember."""
+"""Traces a Python function as formulas: it is called once with numbers that record operations."""
 
 from __future__ import annotations
 
@@ -15,9 +15,9 @@ from gumption import _gumption
 
 
 class NotTraceable(TypeError):
-    """What a function does with its arguments that no formula says.
+    """An operation of a function that no formula can express.
 
-    The tape that is written remembers the first one, so that no ``except`` of the function hides it.
+    The tape stores the first one, so that no ``except`` in the function hides it.
     """
 
     def __init__(self, what: str, decision: Traced | None = None) -> None:
@@ -88,16 +88,16 @@ def _is_accepted(call: str) -> bool:
 
 
 class Tape:
-    """What was done to the arguments of a function, in its order.
+    """The operations on the arguments of a function, in order.
 
     Attributes
     ----------
     has_units : bool
         Whether numbers are in coherent SI units, so that angles are in radians.
     refused : NotTraceable or None
-        What the function did first that no formula says.
+        The first operation that no formula can express.
     mistake : ModelError or None
-        What it did first that can be meant in two ways.
+        The first ambiguous operation.
     """
 
     def __init__(self, has_units: bool) -> None:
@@ -107,7 +107,7 @@ class Tape:
         self._count = 0
 
     def next(self) -> int:
-        """The number of what is done next."""
+        """The number of the next operation."""
         self._count += 1
         return self._count
 
@@ -119,8 +119,8 @@ _TAPE: ContextVar[Tape | None] = ContextVar("tape", default=None)
 def quantity(value: float, unit: str) -> Any:
     """A quantity with a unit within a model function, as its number in coherent SI units.
 
-    Model functions compute with coherent SI units (radians for angles), so a number without a unit is
-    a number. ``gumption.quantity(20, "mm")`` is a length.
+    Model functions compute with coherent SI units (radians for angles), so a number without a unit
+    is dimensionless. ``gumption.quantity(20, "mm")`` is a length.
 
     Parameters
     ----------
@@ -142,10 +142,10 @@ def _angle_in(unit: str) -> float | None:
 
 
 class Traced:
-    """A number that writes down what is done to it.
+    """A number that records operations on it.
 
-    It stands for a quantity in coherent SI units (radians for angles). Operators and the functions
-    of NumPy work on it; what needs to know its value (``if``, ``float()``, ``math.sin``) does not.
+    It represents a quantity in coherent SI units (radians for angles). Operators and the functions
+    of NumPy work on it; operations that need its value (``if``, ``float()``, ``math.sin``) do not.
     """
 
     __slots__ = ("angle", "literal", "number", "operands", "symbol", "tape")
@@ -331,7 +331,7 @@ _GIVING_ANGLES = ("asin", "acos", "atan", "atan2")
 
 
 def _angle_of(symbol: str, operands: tuple[Traced, ...]) -> float | None:
-    """By what an angle in radians was multiplied, if what an operation gives is one."""
+    """The factor of an angle in radians, if the result of an operation is one."""
     if symbol in _GIVING_ANGLES:
         return 1.0
     if symbol in _KEEPING_ANGLES:
@@ -351,7 +351,7 @@ def _angle_of(symbol: str, operands: tuple[Traced, ...]) -> float | None:
 
 
 def _is_about(value: float, factor: float) -> bool:
-    """Whether a number is a factor, or that rounded to four digits as people write it."""
+    """Whether a number is a factor, exactly or rounded to four digits."""
     return math.isclose(abs(value), factor, rel_tol=4e-4)
 
 
@@ -374,7 +374,7 @@ def _boxed(value: Any) -> Any:
 
 
 def _number(value: Any) -> float:
-    """A number that is no quantity."""
+    """A number without a unit."""
     if isinstance(value, (bool, np.bool_)):
         return float(value)
     if isinstance(value, np.ndarray) and value.ndim == 0:
@@ -421,7 +421,7 @@ def _binary(operator: str, first: Any, second: Any) -> Any:
 
 
 def _exponent(tape: Tape, value: float) -> Traced:
-    """An exponent; a ratio of small numbers as such, because quantities have exact exponents only."""
+    """An exponent; a ratio of small integers as a fraction, because units need exact exponents."""
     ratio = Fraction(value).limit_denominator(24) if math.isfinite(value) else Fraction(0)
     if ratio.denominator == 1 or float(ratio) != value:
         return _literal(tape, value)
@@ -438,7 +438,7 @@ def _call(name: str, values: list[Any]) -> Traced:
 
 
 class _Writer:
-    """Formulas of traced numbers: what is used more than once has a name of its own."""
+    """Formulas of traced numbers: a term that is used more than once gets a name."""
 
     def __init__(self, results: Iterable[Traced], taken: Iterable[str]) -> None:
         self._taken = set(taken)
@@ -520,7 +520,7 @@ _COMPOSED: dict[str, Callable[..., Any]] = {
 
 
 def ufunc_of(ufunc: Any, values: tuple[Any, ...]) -> Any:
-    """What a function of NumPy gives of numbers of which some are traced."""
+    """The result of a NumPy function for numbers of which some are traced."""
     values = tuple(v[()] if isinstance(v, np.ndarray) and not v.ndim else v for v in values)
     if not any(isinstance(value, Traced) for value in values):
         return ufunc(*values)
@@ -549,18 +549,18 @@ def equations(
     function : callable
         Called once, with a traced number for each argument.
     arguments, outputs : mapping of str to str
-        Names and units of its arguments and of what it gives.
+        Names and units of its arguments and results.
     names : callable
-        Tells which of what it gave is which output.
+        Assigns its results to outputs.
     has_units : bool, default True
         Whether its numbers are in coherent SI units, and not in the declared ones.
 
     Raises
     ------
     NotTraceable
-        Where it does what no formula says, whether it noticed or not.
+        If it does something that no formula can express, even if the function hides it.
     ModelError
-        Where it does what can be meant in two ways.
+        If an operation is ambiguous.
     """
     tape = Tape(has_units)
     token = _TAPE.set(tape)
@@ -597,7 +597,7 @@ def equations(
 
 
 def decision_formulas(decision: Traced, name: str, taken: Iterable[str]) -> tuple[str, dict[str, str]]:
-    """A decision as text, and the formulas of what it compares under a name that is not taken."""
+    """A comparison as text, and the formulas of its operands under an unused name."""
     if decision.symbol not in ("<", "<=", ">", ">="):
         decision = Traced(decision.tape, "<", (decision, decision))
     writer = _Writer([decision], [*taken, name])
