@@ -113,7 +113,8 @@ class Model:
         """Evaluate by the law of propagation (JCGM 100) and by Monte Carlo (JCGM 101).
 
         Other Python threads continue meanwhile, and Ctrl-C ends the run at once. Settings that are
-        not given are those of the model file. The result has the same bits on any number of threads, and those
+        not given are those of the model file. The result has the same bits on any number of threads,
+        and those
         of ``gumption run``.
 
         Parameters
@@ -128,7 +129,8 @@ class Model:
         k : float, optional
             Coverage factor for infinite degrees of freedom instead of `coverage`.
         digits : int, optional
-            Number of significant digits of the standard uncertainty that are regarded as meaningful (clause 8).
+            Number of significant digits of the standard uncertainty that are regarded as meaningful
+            (clause 8).
         real_dof : bool, default False
             Take the coverage factor at the real number of effective degrees of freedom.
         validate : bool, default False
