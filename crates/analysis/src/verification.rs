@@ -63,7 +63,7 @@ impl RecomputedValue {
 /// A published example with its recomputed values.
 #[derive(Clone, Debug, PartialEq)]
 pub struct RecomputedExample {
-    /// What it is called.
+    /// Its name.
     pub name: String,
     /// The document.
     pub source: String,

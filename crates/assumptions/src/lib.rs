@@ -36,7 +36,7 @@ use sampler::{Change, Sampler};
 use spread::Spread;
 use width_change::WidthSearch;
 
-/// What is asked for.
+/// The request.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Question {
     /// Number of trials of every variant, at least 20 000.
@@ -49,7 +49,7 @@ pub struct Question {
 /// The audit of a task.
 #[derive(Clone, Debug)]
 pub struct Audit {
-    /// What was asked for.
+    /// The request.
     pub question: Question,
     /// The coverage probability of the intervals.
     pub coverage_probability: f64,

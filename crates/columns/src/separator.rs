@@ -14,7 +14,7 @@ pub enum Separator {
 }
 
 impl Separator {
-    /// That of a header.
+    /// The separator of a header line.
     pub fn of_header(header: &str) -> Self {
         if header.contains(';') {
             Self::Semicolon

@@ -314,7 +314,7 @@ fn judgements(task: &Task, evaluation: &Evaluation) -> Vec<Judgement> {
                 .conformity
                 .as_ref()
                 .map(|conformity| if conformity.conforms { Verdict::Yes } else { Verdict::No });
-            // without trials nobody asks it
+            // without trials it is not determined
             if task.settings.trials != Trials::Fixed(0) {
                 all.push(judgement("is the GUM interval valid (clause 8)", valid));
             }

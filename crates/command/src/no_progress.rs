@@ -1,6 +1,6 @@
 //! Progress without a terminal and a clock, as in a browser: none.
 
-/// A bar that nobody sees.
+/// An invisible progress bar.
 #[derive(Debug)]
 pub(super) struct NoBar;
 

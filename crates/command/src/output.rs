@@ -13,7 +13,7 @@ use super::replacement::{Replacement, target};
 use super::surroundings::in_call;
 use super::{Failure, paint, signals};
 
-/// Where an answer goes.
+/// The destination of an answer.
 #[derive(Debug)]
 pub(super) enum Place {
     /// To standard output.

@@ -125,7 +125,7 @@ pub struct PartsFolder {
     /// Whether there is a file that describes the pass.
     has_pass: bool,
     parts: Vec<(PathBuf, SharedFileHeader)>,
-    /// Files that are none.
+    /// The number of files that are not parts.
     others: usize,
 }
 
@@ -323,7 +323,7 @@ impl PartsFolder {
     /// Writes the description of the next pass.
     ///
     /// # Errors
-    /// What the system says.
+    /// The error of the system.
     pub fn write_next(&self, run: &SharedRun, next: &PassOfRun) -> Result<(), Failure> {
         write(&self.next_pass(), &next.file(run))
     }
@@ -331,7 +331,7 @@ impl PartsFolder {
     /// Removes the parts that were kept for a merged pass.
     ///
     /// # Errors
-    /// What the system says.
+    /// The error of the system.
     pub fn remove_kept(&self, number: u64) -> Result<(), Failure> {
         let prefix = kept_prefix(number);
         for (path, header) in &self.parts {

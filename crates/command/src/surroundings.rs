@@ -12,7 +12,7 @@ use std::sync::atomic::AtomicBool;
 /// A model file that replaces standard input (`-`) in a call.
 #[derive(Clone, Debug, Default)]
 pub struct GivenFile {
-    /// What messages call it.
+    /// Its name in messages.
     pub name: String,
     /// Its text.
     pub text: String,

@@ -15,7 +15,7 @@ use crate::tree::{self, Step};
 #[derive(Clone, Debug, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub(crate) struct Edit {
-    /// What is changed.
+    /// The path of the changed value.
     path: Vec<Step>,
     /// What it becomes.
     #[serde(default, with = "given")]

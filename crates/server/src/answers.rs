@@ -125,6 +125,6 @@ pub trait Answers: Send + Sync + 'static {
     /// Writes a file at a path, new or as a replacement; completely or not at all.
     ///
     /// # Errors
-    /// That it cannot be written.
+    /// It cannot be written.
     fn replace(&self, path: &Path, content: &[u8]) -> io::Result<()>;
 }

@@ -1,4 +1,4 @@
-//! Connections, so many at once.
+//! Connections, limited in number.
 //!
 //! A client that connects and sends nothing, or sends slowly, loses its place: to the time limit,
 //! or earlier to a new client. Only requests with a valid secret keep the place.

@@ -149,7 +149,7 @@ pub(crate) fn read(path: &Path, most: u64) -> Result<Vec<u8>, Unopened> {
 /// The words of a path of a request.
 ///
 /// # Errors
-/// What is wrong with it.
+/// A description of the problem.
 pub(crate) fn words(asked: &str) -> Result<Vec<&str>, String> {
     if asked.is_empty() || asked.len() > LONGEST {
         return Err(format!("a path of 1 to {LONGEST} bytes is needed"));

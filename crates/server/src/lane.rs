@@ -19,17 +19,17 @@ pub(crate) struct Limits {
     pub(crate) at_once: usize,
     /// Pieces that wait.
     pub(crate) waiting: usize,
-    /// How long one may take.
+    /// The time limit for one piece of work.
     pub(crate) time: Duration,
     /// How long work may continue after the stop flag before it is abandoned.
     pub(crate) grace: Duration,
-    /// How long one may wait.
+    /// The time limit for waiting.
     pub(crate) patience: Duration,
     /// Whether the oldest work is stopped for newer work.
     pub(crate) newest_first: bool,
 }
 
-/// Why work was not done.
+/// The reason why work was not done.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Undone {
     /// Too much is going on.

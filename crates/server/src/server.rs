@@ -32,7 +32,7 @@ const BODIES: usize = 8;
 /// Threads that wait or compute: those of the lanes, and one that examines files.
 const THREADS: usize = CALLS.at_once + MAKINGS.at_once + DISK.at_once + 1;
 
-/// How long requests may take.
+/// Time limits of requests.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct RequestTimes {
     /// Time limit for an answer to the page, which contains what is computed by then.
@@ -94,7 +94,7 @@ pub struct ServerOptions {
     pub language: Option<&'static str>,
     /// What answers.
     pub answers: Arc<dyn Answers>,
-    /// How long requests may take.
+    /// Time limits of requests.
     pub times: RequestTimes,
 }
 

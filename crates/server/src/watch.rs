@@ -73,7 +73,7 @@ impl Watch {
         self.listeners.subscribe()
     }
 
-    /// How many listen.
+    /// The number of listeners.
     pub(crate) fn listeners(&self) -> usize {
         self.listeners.receiver_count()
     }

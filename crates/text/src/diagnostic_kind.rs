@@ -42,24 +42,24 @@ pub enum DiagnosticKind {
     NumberTooLarge,
     /// A value of another type.
     WrongType {
-        /// What is concerned, in words.
+        /// The object concerned, in words.
         what: String,
-        /// What stands there.
+        /// The value found.
         found: &'static str,
-        /// What must stand there.
+        /// The expected value.
         expected: &'static str,
     },
     /// A key that does not exist here.
     UnknownKey {
         /// The key.
         key: String,
-        /// What is concerned, in words.
+        /// The object concerned, in words.
         what: &'static str,
         /// The known name that is nearest, if one is near.
         nearest: Option<String>,
         /// The objects of this kind of file that have such a key, in words.
         homes: Vec<&'static str>,
-        /// What is known there.
+        /// The known names.
         known: Vec<&'static str>,
     },
     /// The same key twice.
@@ -71,12 +71,12 @@ pub enum DiagnosticKind {
     MissingKey {
         /// The key.
         key: &'static str,
-        /// What is concerned, in words.
+        /// The object concerned, in words.
         what: &'static str,
     },
     /// An input or a component without a distribution.
     NoDistribution {
-        /// What is concerned, in words.
+        /// The object concerned, in words.
         what: &'static str,
         /// The distributions that have all of the object's keys; empty if it has no key of a
         /// distribution.
@@ -84,7 +84,7 @@ pub enum DiagnosticKind {
     },
     /// A version of the file format that this program does not know.
     UnknownFormat {
-        /// What stands there.
+        /// The value found.
         found: String,
     },
     /// A file of another kind than the command reads.
@@ -113,7 +113,7 @@ pub enum DiagnosticKind {
         model: String,
         /// The known name that is nearest, if one is near.
         nearest: Option<String>,
-        /// What is known there.
+        /// The known names.
         known: Vec<String>,
     },
     /// The typed model has no such output, or no equation defines it.
@@ -122,7 +122,7 @@ pub enum DiagnosticKind {
         name: String,
         /// The known name that is nearest, if one is near.
         nearest: Option<String>,
-        /// What is known there.
+        /// The known names.
         known: Arc<[String]>,
     },
     /// The typed model needs an input that is not there.
@@ -159,20 +159,20 @@ pub enum DiagnosticKind {
     Unit {
         /// The unit.
         unit: String,
-        /// What is wrong with it.
+        /// A description of the problem.
         error: UnitError,
     },
     /// A unit of another dimension than the quantity.
     WrongDimension {
         /// The name that is concerned.
         name: String,
-        /// What stands there.
+        /// The value found.
         found: String,
         /// The quantity that the found unit measures.
         found_as: String,
         /// The quantity that is needed.
         expected_as: String,
-        /// What must stand there.
+        /// The expected value.
         expected: String,
     },
     /// A unit of the right dimension whose scale does not suit the quantity.
@@ -188,7 +188,7 @@ pub enum DiagnosticKind {
     Value {
         /// The key.
         key: String,
-        /// What stands there.
+        /// The value found.
         found: String,
         /// Why, as a part of the sentence.
         reason: String,
@@ -199,14 +199,14 @@ pub enum DiagnosticKind {
         name: String,
         /// The known name that is nearest, if one is near.
         nearest: Option<String>,
-        /// What is known there.
+        /// The known names.
         known: Vec<&'static str>,
     },
-    /// Parameters that no distribution has.
+    /// Invalid parameters.
     Distribution {
         /// The name that is concerned.
         name: String,
-        /// What is wrong with it.
+        /// A description of the problem.
         error: Invalid,
     },
     /// Two keys that exclude each other.
@@ -232,21 +232,21 @@ pub enum DiagnosticKind {
     NotProbability {
         /// The key.
         key: String,
-        /// What stands there.
+        /// The value found.
         found: f64,
     },
     /// A number that must be positive.
     NotPositive {
         /// The key.
         key: String,
-        /// What stands there.
+        /// The value found.
         found: f64,
     },
     /// Not a whole number, or out of range.
     NotWhole {
         /// The key.
         key: String,
-        /// What stands there.
+        /// The value found.
         found: String,
         /// The least that is allowed.
         least: u64,
@@ -255,7 +255,7 @@ pub enum DiagnosticKind {
     },
     /// Not a number of trials.
     NotTrials {
-        /// What stands there.
+        /// The value found.
         found: String,
         /// The most that is allowed.
         most: u64,
@@ -264,7 +264,7 @@ pub enum DiagnosticKind {
     OutOfRange {
         /// The key.
         key: String,
-        /// What stands there.
+        /// The value found.
         found: f64,
         /// The range, in words.
         range: &'static str,
@@ -273,7 +273,7 @@ pub enum DiagnosticKind {
     NotOneOf {
         /// The key.
         key: String,
-        /// What stands there.
+        /// The value found.
         found: String,
         /// The values that are allowed.
         allowed: Vec<String>,
@@ -282,7 +282,7 @@ pub enum DiagnosticKind {
     Width {
         /// The name that is concerned.
         name: String,
-        /// What stands there.
+        /// The value found.
         found: String,
         /// Why, as a part of the sentence.
         reason: String,
@@ -305,7 +305,7 @@ pub enum DiagnosticKind {
     },
     /// A formula's error.
     Formula {
-        /// What is wrong with it.
+        /// A description of the problem.
         error: FormulaError,
     },
     /// An estimate's formula with an input that is not known exactly.
@@ -322,7 +322,7 @@ pub enum DiagnosticKind {
     EstimateUndefined {
         /// The row, from 1.
         row: usize,
-        /// What stands there.
+        /// The value found.
         found: f64,
     },
     /// A condition or list without values.
@@ -334,7 +334,7 @@ pub enum DiagnosticKind {
     ConditionRange {
         /// The condition.
         name: String,
-        /// What stands there.
+        /// The value found.
         found: Vec<f64>,
     },
     /// A condition that has no values of its own and no table to take them from.
@@ -348,21 +348,21 @@ pub enum DiagnosticKind {
         row: usize,
         /// The column.
         column: String,
-        /// What stands there.
+        /// The value found.
         found: String,
     },
     /// A table's row with another number of cells than the header.
     ShortRow {
         /// The row, from 1.
         row: usize,
-        /// What stands there.
+        /// The value found.
         found: usize,
-        /// What must stand there.
+        /// The expected value.
         expected: usize,
     },
     /// A line of a file of samples that is not a number.
     Sample {
-        /// What stands there.
+        /// The value found.
         found: String,
     },
     /// A column whose heading has another unit than its values are read in.
@@ -398,9 +398,9 @@ pub enum DiagnosticKind {
     },
     /// Too many rows, inputs, nodes.
     TooMany {
-        /// What is concerned, in words.
+        /// The object concerned, in words.
         what: &'static str,
-        /// What stands there.
+        /// The value found.
         found: usize,
         /// The most that is allowed.
         most: usize,
@@ -423,7 +423,7 @@ pub enum DiagnosticKind {
         name: String,
         /// The known name that is nearest, if one is near.
         nearest: Option<String>,
-        /// What is known there.
+        /// The known names.
         known: Vec<String>,
     },
     /// A list of a result file whose entries do not fit.
@@ -436,7 +436,7 @@ pub enum DiagnosticKind {
     SavedZero {
         /// The name that is concerned.
         name: String,
-        /// What stands there.
+        /// The value found.
         found: String,
         /// The unit of the saved result.
         saved: String,
@@ -455,7 +455,7 @@ pub enum DiagnosticKind {
     },
     /// A model file with several rows of conditions, to be compared with a saved result.
     SeveralRows {
-        /// How many rows there are.
+        /// The number of rows.
         rows: usize,
     },
     /// Values with which the evaluation cannot continue.
@@ -501,7 +501,7 @@ pub enum DiagnosticKind {
     NotDate {
         /// The key.
         key: &'static str,
-        /// What stands there.
+        /// The value found.
         found: String,
     },
     /// A recipe whose parts do not fit.

@@ -136,7 +136,7 @@ mod tests {
         ] {
             assert_eq!(dof(k, p), expected, "{k} {p}");
         }
-        // no integer has it
+        // no integer gives this factor
         let between = dof("3.90", 0.9545);
         assert!((2.0..3.0).contains(&between) && between.fract() != 0.0, "{between}");
     }

@@ -9,7 +9,7 @@ use super::source::{Place, SourceText};
 use super::table::place_of_cell;
 use gumption_columns::separator::{Separator, is_skipped};
 
-/// At most so many rows.
+/// Maximum number of rows.
 const MOST_ROWS: usize = 10_000;
 
 /// A table: column names and rows of texts.
@@ -146,17 +146,17 @@ impl TextTable {
         self.source.position(start).0.saturating_sub(1)
     }
 
-    /// What separates its cells.
+    /// The separator of its cells.
     pub fn separator(&self) -> Separator {
         self.separator
     }
 
-    /// Where the header stands.
+    /// The position of the header.
     pub fn header(&self) -> Place {
         Place { source: self.source.clone(), span: self.header.clone() }
     }
 
-    /// Where a cell stands.
+    /// The position of a cell.
     pub fn place(&self, row: usize, column: usize) -> Place {
         let span = self.rows.get(row).map_or(self.header.clone(), |(span, _)| span.clone());
         place_of_cell(&Place { source: self.source.clone(), span }, column, self.separator)

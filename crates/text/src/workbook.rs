@@ -372,9 +372,9 @@ fn opened(bytes: Vec<u8>) -> Result<Xlsx<Cursor<Vec<u8>>>, String> {
 /// What the cells of a sheet tell besides their values.
 #[derive(Default)]
 struct Told {
-    /// Those that are struck through.
+    /// Cells that are struck through.
     struck: BTreeSet<Place>,
-    /// Those that hold texts.
+    /// Cells with texts.
     texts: BTreeSet<Place>,
     /// Cells that display a date or a time.
     dates: BTreeMap<Place, String>,

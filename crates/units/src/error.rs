@@ -19,7 +19,7 @@ pub enum UnitError {
     UnknownUnit {
         /// The name as written.
         name: String,
-        /// Where it stands.
+        /// Its span.
         span: Range<usize>,
         /// At most three unit texts that may be meant, most likely first; each of them parses.
         nearest: Vec<String>,
@@ -28,7 +28,7 @@ pub enum UnitError {
     QualifiedUnit {
         /// The name as written.
         name: String,
-        /// Where it stands.
+        /// Its span.
         span: Range<usize>,
         /// The unit: `bar`.
         unit: String,
@@ -41,7 +41,7 @@ pub enum UnitError {
         prefix: String,
         /// The unit after it.
         unit: String,
-        /// Where the two stand.
+        /// The span of both.
         span: Range<usize>,
         /// What to write instead: `mK`, `1e-3*deg`.
         instead: String,
@@ -50,7 +50,7 @@ pub enum UnitError {
     UnexpectedCharacter {
         /// The character.
         found: char,
-        /// Where it stands.
+        /// Its span.
         span: Range<usize>,
         /// What would be allowed there, in words.
         expected: &'static str,
@@ -61,7 +61,7 @@ pub enum UnitError {
     MissingFactor {
         /// The operator as written: `/`, `()`.
         operator: String,
-        /// Where it stands.
+        /// Its span.
         span: Range<usize>,
         /// The side on which something is missing, or inside.
         side: MissingSide,
@@ -70,7 +70,7 @@ pub enum UnitError {
     UnbalancedParenthesis {
         /// `(` or `)`.
         found: char,
-        /// Where it stands.
+        /// Its span.
         span: Range<usize>,
     },
     /// An exponent that is not a whole number, a decimal number or a fraction in parentheses.
@@ -84,7 +84,7 @@ pub enum UnitError {
     ExponentTooLarge {
         /// The exponent, or the whole power if only the resulting dimension is out of range.
         found: String,
-        /// Where it stands.
+        /// Its span.
         span: Range<usize>,
         /// The largest allowed exponent, in absolute value; for a denominator
         /// [`Unit::MAX_EXPONENT`](super::Unit::MAX_EXPONENT).
@@ -106,7 +106,7 @@ pub enum UnitError {
     AmbiguousProduct {
         /// The ambiguous text.
         found: String,
-        /// Where it stands.
+        /// Its span.
         span: Range<usize>,
         /// The more likely reading: `J/(kg K)`, `degC`.
         likelier: String,
@@ -118,7 +118,7 @@ pub enum UnitError {
     NumberInParentheses {
         /// The parentheses with their content.
         found: String,
-        /// Where they stand.
+        /// Their span.
         span: Range<usize>,
     },
     /// A factor that is zero, or too large or too small for an `f64`.
@@ -135,7 +135,7 @@ pub enum UnitError {
     },
     /// Too many parentheses or roots inside each other.
     NestedTooDeep {
-        /// The first one too many.
+        /// The first one beyond the limit.
         span: Range<usize>,
         /// The largest allowed depth.
         limit: usize,

@@ -37,7 +37,7 @@ pub enum FactorBase {
 }
 
 impl Factor {
-    /// A base as it stands.
+    /// An unmodified base.
     pub(super) const fn of(base: FactorBase) -> Self {
         Self { base, exponent: Exponent::ONE }
     }

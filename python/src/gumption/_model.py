@@ -114,8 +114,7 @@ class Model:
 
         Other Python threads continue meanwhile, and Ctrl-C ends the run at once. Settings that are
         not given are those of the model file. The result has the same bits on any number of threads,
-        and those
-        of ``gumption run``.
+        and those of ``gumption run``.
 
         Parameters
         ----------

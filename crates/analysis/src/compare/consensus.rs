@@ -85,7 +85,7 @@ pub struct ConsensusValue {
     pub birge_ratio: Option<f64>,
     /// The standard deviation tau between laboratories of a random-effects model; at least 0.
     pub tau: Option<f64>,
-    /// Of the random-effects models.
+    /// For the random-effects models; `None` for others.
     pub hartung_knapp: Option<HartungKnapp>,
 }
 

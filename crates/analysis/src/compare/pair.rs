@@ -53,7 +53,7 @@ impl StatedResult {
 /// Two results of one quantity.
 #[derive(Clone, Debug, PartialEq)]
 pub struct ResultPair {
-    /// What is compared.
+    /// The compared results.
     pub label: String,
     /// The two results.
     pub results: [StatedResult; 2],
@@ -64,7 +64,7 @@ pub struct ResultPair {
 /// Two results compared.
 #[derive(Clone, Debug, PartialEq)]
 pub struct ComparedPair {
-    /// What is compared.
+    /// The compared results.
     pub label: String,
     /// x1 - x2.
     pub difference: f64,

@@ -110,7 +110,7 @@ pub enum ChangeCause {
 /// A part of the change.
 #[derive(Clone, Debug, PartialEq)]
 pub struct ChangePart {
-    /// What it is due to.
+    /// Its cause.
     pub due: ChangeCause,
     /// The state of an input in both files; `None` if it is absent.
     pub states: [Option<InputState>; 2],

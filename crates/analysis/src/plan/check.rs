@@ -15,7 +15,7 @@ use gumption_engine::task::{Row, Task};
 /// The results of the trials for a plan.
 #[derive(Clone, Debug, PartialEq)]
 pub struct PlanCheck {
-    /// How many trials there were.
+    /// The number of trials.
     pub trials: u64,
     /// Half the length of the symmetric coverage interval, or the standard uncertainty if that is
     /// wanted; `None` if the trials do not determine it.

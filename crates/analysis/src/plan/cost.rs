@@ -1,4 +1,4 @@
-//! What improvements of inputs cost.
+//! Costs of improvements of the inputs.
 
 use super::trial_budget::{Plannable, TrialBudget};
 
@@ -76,7 +76,7 @@ impl Costs {
         }
     }
 
-    /// What costs are counted in.
+    /// The unit of costs.
     pub fn currency(&self) -> &str {
         match self {
             Self::Equal => "",

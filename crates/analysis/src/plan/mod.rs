@@ -55,12 +55,12 @@ impl PlanTarget {
     }
 }
 
-/// What is asked for.
+/// The request.
 #[derive(Clone, Debug)]
 pub struct PlanQuestion {
-    /// What is wanted.
+    /// The target.
     pub target: PlanTarget,
-    /// What improvements cost.
+    /// Costs of improvements.
     pub costs: Costs,
     /// The input whose uncertainty grows with time, for a calibration interval.
     pub drift: Option<Drift>,
@@ -90,7 +90,7 @@ pub struct InputNeed {
 /// The answer.
 #[derive(Clone, Debug)]
 pub struct Plan {
-    /// What was asked for.
+    /// The request.
     pub target: PlanTarget,
     /// The index of the planned row.
     pub row: usize,
@@ -112,7 +112,7 @@ pub struct Plan {
     pub check: Option<PlanCheck>,
 }
 
-/// Why there is no plan.
+/// The reason why there is no plan.
 #[derive(Clone, Debug, PartialEq)]
 #[non_exhaustive]
 pub enum NoPlan {
@@ -140,9 +140,9 @@ pub enum NoPlan {
     Unreachable(f64),
     /// Too many combinations of offers.
     TooManyOffers {
-        /// How many there are.
+        /// Their number.
         found: usize,
-        /// How many can be.
+        /// The largest possible number.
         most: usize,
     },
     /// The quantity of the drift has no uncertainty to grow.
@@ -190,7 +190,7 @@ impl std::error::Error for NoPlan {}
 /// trials with the task's settings.
 ///
 /// # Errors
-/// Why there is no plan.
+/// The reason why there is no plan.
 pub fn plan(task: &Task, question: &PlanQuestion, control: &Control<'_>) -> Result<Plan, NoPlan> {
     let target = question.target;
     let budgets: Vec<TrialBudget<'_>> =

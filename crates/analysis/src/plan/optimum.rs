@@ -38,7 +38,7 @@ pub struct PlannedInput {
     pub readings: Option<u64>,
     /// The chosen offer, in words.
     pub offer: Option<String>,
-    /// What it costs.
+    /// Its cost.
     pub cost: f64,
 }
 
@@ -47,7 +47,7 @@ pub struct PlannedInput {
 pub struct CheapestPlan {
     /// The inputs that can be improved, in the order of the task.
     pub inputs: Vec<PlannedInput>,
-    /// What all of it costs.
+    /// The total cost.
     pub cost: f64,
     /// The output as planned.
     pub gum: Gum,
@@ -374,7 +374,7 @@ impl Problem<'_> {
         self.budget.figure(&changes).unwrap_or(f64::NAN)
     }
 
-    /// What becomes of an input.
+    /// The change of an input.
     fn planned(
         &self,
         variable: usize,

@@ -96,7 +96,7 @@ pub(super) fn scan(reading: Reading) -> Result<Recording, String> {
     Ok(Recording { first, frames, held, rate, start, of_middle, digest, whole, warnings, reading })
 }
 
-/// What was seen so far.
+/// The state so far.
 struct Scanned<'r> {
     reading: &'r Reading,
     /// The sampling rate, if it does not come from the instants.

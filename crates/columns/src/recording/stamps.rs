@@ -142,7 +142,7 @@ impl Stamps {
     /// The seconds from the first stamp to this one; `None` if the text is not a stamp.
     ///
     /// # Errors
-    /// The dates cannot be told.
+    /// The dates are ambiguous.
     pub(super) fn seconds(&mut self, text: &str) -> Result<Option<f64>, String> {
         let Some(stamp) = Stamp::of(text) else { return Ok(None) };
         let first = self.first.get_or_insert_with(|| stamp.clone());

@@ -23,7 +23,7 @@ fn refused(parameter: &'static str, value: f64) -> Invalid {
     Invalid::OutOfRange { parameter, value, range: "one that double precision can compute with" }
 }
 
-/// A whole number from 0 to so many.
+/// A whole number from 0 to `most`.
 fn whole(
     parameter: &'static str,
     value: u64,

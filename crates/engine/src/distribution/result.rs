@@ -28,7 +28,7 @@ pub struct Scores {
     pub from: f64,
     /// The distance of two scores.
     pub step: f64,
-    /// How many there are.
+    /// Their number.
     pub count: usize,
 }
 

@@ -118,34 +118,34 @@ pub enum Invalid {
     },
     /// A Type A evaluation needs at least two readings.
     TooFewReadings {
-        /// How many there are.
+        /// Their number.
         count: usize,
     },
     /// All readings are equal, so their scatter says nothing about the uncertainty.
     NoScatter {
-        /// How many readings there are.
+        /// The number of readings.
         count: usize,
     },
     /// The readings differ, but by so much or so little that their variance overflows or vanishes.
     ScatterOutOfRange {
-        /// How many readings there are.
+        /// The number of readings.
         count: usize,
     },
     /// An empirical distribution needs at least two samples.
     TooFewSamples {
-        /// How many there are.
+        /// Their number.
         count: usize,
     },
     /// All samples are equal, so the quantity does not vary.
     EqualSamples {
-        /// How many samples there are.
+        /// The number of samples.
         count: usize,
     },
     /// Too few paired readings for a joint distribution with a covariance.
     TooFewPaired {
         /// Number of readings of each quantity.
         count: usize,
-        /// How many quantities are paired.
+        /// The number of paired quantities.
         together: usize,
     },
     /// The draws of a distribution contradict its stated parameters.
@@ -154,7 +154,7 @@ pub enum Invalid {
         parameter: &'static str,
         /// The stated value; for a quantile its probability.
         stated: f64,
-        /// What the draws have.
+        /// The value of the draws.
         found: f64,
     },
     /// The width is lost in the rounding of the estimate.

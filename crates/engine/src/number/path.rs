@@ -53,7 +53,7 @@ impl std::error::Error for UnavailablePath {}
 /// Work that is compiled once for each code path. `run` and everything in its inner loops must be
 /// `#[inline(always)]`, so that they get the vector width of their caller.
 pub trait Kernel {
-    /// What the work gives.
+    /// The result of the work.
     type Output;
 
     /// Whether it is compiled for the widest registers as well; false if it takes little of the

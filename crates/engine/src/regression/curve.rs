@@ -36,7 +36,7 @@ impl Curve {
         Self::Polynomial { degree, origin: 0.0 }
     }
 
-    /// How many parameters it has.
+    /// The number of parameters.
     pub fn parameters(&self) -> usize {
         match self {
             Self::Polynomial { degree, .. } => degree + 1,

@@ -32,9 +32,9 @@ pub enum RegressionError {
     Length {
         /// Of what.
         coordinate: Coordinate,
-        /// How many there should be.
+        /// The expected number.
         expected: usize,
-        /// How many there are.
+        /// Their number.
         found: usize,
     },
     /// A number that is infinite or NaN.
@@ -60,7 +60,7 @@ pub enum RegressionError {
     },
     /// Fewer points than the curve needs.
     TooFewPoints {
-        /// How many there are.
+        /// Their number.
         points: usize,
         /// The number of parameters of the curve.
         parameters: usize,
@@ -69,7 +69,7 @@ pub enum RegressionError {
     },
     /// Fewer different abscissae than coefficients of the polynomial.
     TooFewAbscissae {
-        /// How many there are.
+        /// Their number.
         different: usize,
         /// The number of coefficients of the polynomial.
         parameters: usize,
@@ -88,7 +88,7 @@ pub enum RegressionError {
     },
     /// The iteration does not converge to a minimum.
     NotConverged {
-        /// How many steps it took.
+        /// The number of steps.
         steps: usize,
     },
     /// The points lie exactly on the curve, so that their uncertainty cannot be estimated.

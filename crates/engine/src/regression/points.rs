@@ -154,7 +154,7 @@ impl Points {
         Self { estimated: true, ..self }
     }
 
-    /// How many there are.
+    /// Their number.
     pub fn len(&self) -> usize {
         self.x.len()
     }

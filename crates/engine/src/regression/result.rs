@@ -139,7 +139,7 @@ impl Regression {
         })
     }
 
-    /// How many parameters there are.
+    /// The number of parameters.
     pub fn count(&self) -> usize {
         self.estimates.len()
     }

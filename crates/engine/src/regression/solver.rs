@@ -14,7 +14,7 @@ use super::error::RegressionError;
 use super::least_squares::{self, Solution};
 use super::points::{Noise, Root};
 
-/// What parameters are coefficients of.
+/// The basis of the parameters.
 #[derive(Clone, Debug)]
 pub(super) enum Basis<'p> {
     Chebyshev(Chebyshev),

@@ -32,7 +32,7 @@ use gumption_engine::task::Warning;
 /// The contents of a certificate.
 #[derive(Clone, Copy, Debug)]
 pub struct CertificateReport<'a> {
-    /// What was asked for.
+    /// The request.
     pub certificate: &'a Certificate,
     /// The results.
     pub issued: &'a Issued,

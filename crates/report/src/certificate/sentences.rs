@@ -40,7 +40,7 @@ impl Said {
     }
 }
 
-/// Where sentences stand.
+/// The presentation next to which the sentences appear.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Beside {
     /// A table, which contains the degrees of freedom.

@@ -30,7 +30,7 @@ const MOST_DOF: f64 = 10_000.0;
 /// The notation of units in words.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum UnitsAre {
-    /// As print has them.
+    /// In typographic notation.
     Printed,
     /// As in the model file.
     OfFile,
@@ -101,7 +101,7 @@ impl Stated<'_> {
         Figure::of(self.number as f64, self.number.to_string())
     }
 
-    /// What the row is called.
+    /// The label of the row.
     pub(super) fn name(&self, languages: &[Language]) -> String {
         match &self.line.label {
             Some(label) => plain(&label.all(languages).join(" / ")),

@@ -13,7 +13,7 @@ pub use page::{html, markdown, table};
 
 use gumption_analysis::compare::{ComparedPair, Comparison, ResultPair};
 
-/// What is reported.
+/// A comparison.
 #[derive(Clone, Debug)]
 pub enum Compare {
     /// Results two by two.

@@ -82,7 +82,7 @@ pub(super) fn laboratories(comparison: &Comparison, unit: &str) -> Sheet {
     sheet
 }
 
-/// What every estimator gives.
+/// The values of every estimator.
 pub(super) fn estimators(comparison: &Comparison) -> Sheet {
     let values = &comparison.estimators;
     let mut sheet = Sheet::default();

@@ -85,7 +85,7 @@ pub(super) fn title(compare: &Compare) -> String {
     }
 }
 
-/// What came out.
+/// The result.
 pub(super) fn verdict(compare: &Compare) -> Vec<String> {
     match compare {
         Compare::Pairs { compared, .. } => {

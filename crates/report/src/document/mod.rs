@@ -71,7 +71,7 @@ pub(crate) enum FootPart<'a> {
     Text(&'a str),
     /// The number of the page.
     Page,
-    /// How many pages there are.
+    /// The number of pages.
     Pages,
 }
 

@@ -4,7 +4,7 @@ use super::{Block, Document};
 use crate::sheet::{Kind, Sheet};
 use crate::{Grid, plain, table::width, wrapped};
 
-/// Where somebody signs.
+/// A line for a signature.
 const RULE: &str = "________________________________";
 
 /// Minimum number of letters per line of a text, however narrow the page is.

@@ -75,7 +75,7 @@ pub(super) fn figure(number: usize, drawing: &Drawing) -> Markup {
     }
 }
 
-/// How much room figures have.
+/// The size of figures.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum FigureSize {
     /// For a page: drawn for its width, and for a narrow screen.

@@ -72,7 +72,7 @@ pub(super) fn inputs(report: &PlanReport<'_>) -> Option<Drawing> {
     Some(Drawing::new(caption, drawn))
 }
 
-/// What is wanted against time.
+/// The uncertainty against time.
 pub(super) fn interval(report: &PlanReport<'_>, found: &PlannedInterval) -> Option<Drawing> {
     if found.curve.len() < 2 {
         return None;

@@ -24,7 +24,7 @@ pub struct PlanReport<'a> {
     pub task: &'a Task,
     /// The plan.
     pub plan: &'a Plan,
-    /// What improvements cost.
+    /// Costs of improvements.
     pub costs: &'a Costs,
     /// The unit of the times of a drift, as typed.
     pub time_unit: &'a str,

@@ -171,7 +171,7 @@ pub fn excess_text(excess: &Excess, task: &Task, target: PlanTarget) -> String {
     said
 }
 
-/// What the trials say.
+/// The results of the trials.
 fn check(report: &PlanReport<'_>, found: &PlanCheck) -> Option<String> {
     let figure = value(report.output(), &significant(found.figure?, DIGITS));
     let of_excess = found.excess.as_ref().map(|excess| {

@@ -74,7 +74,7 @@ impl Axis {
         Self { log: true, ends: [log10(from), log10(to)] }
     }
 
-    /// Where a value lies.
+    /// The position of a value.
     pub(crate) fn position(&self, value: f64) -> f64 {
         if self.log { log10(value) } else { value }
     }

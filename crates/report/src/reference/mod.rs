@@ -10,7 +10,7 @@ mod units;
 
 use super::document::{self, Block, Document};
 
-/// What is told about.
+/// The topic.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Topic {
     /// The keys of a model file.

@@ -69,7 +69,7 @@ impl Varying {
         Self::new(&shared, &varying, joint)
     }
 
-    /// How many there are.
+    /// Their number.
     pub(crate) fn len(&self) -> usize {
         self.distributions.len()
     }

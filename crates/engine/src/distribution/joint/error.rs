@@ -13,9 +13,9 @@ const LISTED: usize = 12;
 pub enum CorrelationError {
     /// More dependent quantities than the limit: their matrix has a number for each pair.
     TooMany {
-        /// How many there are.
+        /// Their number.
         count: usize,
-        /// How many there can be.
+        /// The largest possible number.
         most: usize,
     },
     /// The coefficients of these quantities contradict each other: their matrix is not positive
