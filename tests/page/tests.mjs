@@ -54,7 +54,7 @@ await test("the resistor of the README from nothing, with the command line's dig
   await page.fill("#equations", "power = voltage^2/resistance");
   await page.locator("#missing").getByText("all of them").click();
   await field(page, "mean of voltage").fill("5.01");
-  await field(page, "std of voltage").fill("0.01");
+  await field(page, "standard uncertainty u of voltage").fill("0.01");
   await field(page, "Unit of voltage").fill("V");
   await page.getByLabel("Distribution of resistance").selectOption("readings");
   await field(page, "values of resistance").fill("99.8 100.1 100.0 99.9");
@@ -97,7 +97,7 @@ await test("mistakes are underlined where they stand", async page => {
   await until(page, () => document.querySelector("#source-box mark"));
   assert.equal(await page.locator("#source-box mark").textContent(), "+");
   await page.click("#view-form");
-  await field(page, "expanded of voltage").fill("-1");
+  await field(page, "expanded uncertainty U of voltage").fill("-1");
   await until(page, () => document.querySelector("#inputs [aria-invalid=true]"));
   await shot(page, "mistakes");
   // over the marks the letters stand where they stand in the field
