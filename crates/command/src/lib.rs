@@ -110,7 +110,7 @@ enum Command {
     Plan(plan::Planning),
     /// Diagnose where measured data depart from a model, and which effect is missing
     Gap(gap::Gap),
-    /// Test the diagnosis on simulated data of this case (blind)
+    /// Test the diagnosis on simulated data of a case (blind)
     GapCheck(gap_check::GapCheck),
     /// Determine amplitudes, phases and delays with their uncertainties from raw recordings
     Observe(observe::Observe),
