@@ -296,7 +296,7 @@ fn what_cannot_be_opened_is_said() {
     let folder = folder();
     let server = PageServer::start(folder.path());
     let said = refused(&["models", "--no-browser", "--port", &server.port.to_string()], 1);
-    assert!(said.contains("another program has it"), "{said}");
+    assert!(said.contains("another program uses it"), "{said}");
     refused(&["--port", "65536"], 2);
     refused(&["--lang", "fr"], 2);
 }

@@ -116,12 +116,13 @@ fn what_cannot_be_planned_is_said() {
     let costs = || wrong(&["--target", "U(y) <= 7 mm", "--cost", "cost.json"]);
     cost(r#"{"costs": {"a": {"cost": 1}}}"#);
     assert!(costs().contains(
-        "cannot be reached: with every improvement that the file of costs has U(y) is still 8 mm"
+        "cannot be reached: U(y) is still 8 mm with every improvement that the file of costs has"
     ));
     // an offer in the wrong unit: a has 3 mm
     cost(r#"{"costs": {"a": {"offers": [{"standard_uncertainty": 1500, "cost": 15}]}}}"#);
     assert!(costs().contains(
-        "U(y) is still 10 mm. The offer of 1500 mm for a (cost 15) is no better than what there is, \
+        "U(y) is still 10 mm with every improvement that the file of costs has. The offer of 1500 \
+         mm for a (cost 15) is no better than what there is, \
          3 mm, and helps nothing. Numbers without a unit are in mm"
     ));
     cost(r#"{"costs": {"aa": {"cost": 1}}}"#);

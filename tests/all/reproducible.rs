@@ -246,7 +246,7 @@ fn without_threads_the_answer_is_the_same() {
         let (without, said) = done("1000000000000000");
         assert!(usual == without && usual.len() > 500, "{name} {arguments:?}");
         assert_eq!(said.lines().count(), 1, "{said}");
-        assert!(said.starts_with("warning: the system gives no threads ("), "{said}");
+        assert!(said.starts_with("warning: the system provides no threads ("), "{said}");
     }
     let mut open = command();
     open.current_dir(root()).args(["open", "models", "--no-browser"]);

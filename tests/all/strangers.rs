@@ -116,7 +116,7 @@ fn files_outside_of_the_folder_are_not_read() {
             let refused = folder.run(&[command, "sub/f.json"]);
             let said = said(&refused);
             assert_eq!(refused.status.code(), Some(2), "{command} {text}: {said}");
-            let expected = "lies outside of the folder of this file";
+            let expected = "is outside the folder of this file";
             assert!(said.contains(expected) && said.contains("--allow-path"), "{text}: {said}");
             for secret in ["31337", "password\n", "root:", "PATH="] {
                 assert!(!said.contains(secret), "{text}: {said}");

@@ -116,7 +116,7 @@ fn coverage_of_diff_and_gap() {
         command().args(["run", &a, "--trials", "10000", "--quiet", "--save", &saved]).output();
     assert!(run.expect("the program runs").status.success());
     let text = said(&["diff", &saved, &b, "--k", "3"]);
-    assert!(text.contains("have the coverage that it was saved with"), "{text}");
+    assert!(text.contains("whose coverage was fixed when it was saved"), "{text}");
     let text = said(&["gap", "--k", "3", "--coverage", "0.9", "models/gap/radius/case.json"]);
     assert!(text.contains("cannot be used with"), "{text}");
 }

@@ -239,11 +239,11 @@ fn a_value_has_one_unit() {
     let of =
         |unit: &str, value: &str| model(&json!({"x": {"unit": unit, "value": value}}), "x", unit);
     for (unit, value, said) in [
-        ("degC", "20 ± 0.5 K (k=2)", "20 K, as what stands behind it, or 20 degC"),
-        ("degC", "20(0.5) K", "20 K, as what stands behind it, or 20 degC"),
-        ("kg", "1.000 ± 50 mg (95 %)", "1.000 mg, as what stands behind it, or 1.000 kg"),
-        ("m", "10 +0.2 -0.1 mm", "10 mm, as what stands behind it, or 10 m"),
-        ("m", "10, U = 2 mm, k = 2", "the value has no unit, and its uncertainty is in `mm`"),
+        ("degC", "20 ± 0.5 K (k=2)", "20 K, like its uncertainty, or 20 degC"),
+        ("degC", "20(0.5) K", "20 K, like its uncertainty, or 20 degC"),
+        ("kg", "1.000 ± 50 mg (95 %)", "1.000 mg, like its uncertainty, or 1.000 kg"),
+        ("m", "10 +0.2 -0.1 mm", "10 mm, like its uncertainty, or 10 m"),
+        ("m", "10, U = 2 mm, k = 2", "the value has no unit, but its uncertainty is in `mm`"),
     ] {
         let found = refused(&of(unit, value), &["--trials", "0"]);
         assert!(found.contains(said), "{value}: {found}");

@@ -59,7 +59,7 @@ mod tests {
             child.args(["--exact", name, "--nocapture"]).env(CHILD, &path).output().unwrap();
         let told = String::from_utf8_lossy(&ended.stderr).into_owned();
         assert_eq!(ended.status.code(), Some(1), "{told}");
-        assert!(told.contains("on purpose") && told.contains("mistake of the program"), "{told}");
+        assert!(told.contains("on purpose") && told.contains("error of the program"), "{told}");
         assert!(!path.exists());
     }
 }

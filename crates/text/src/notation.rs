@@ -741,7 +741,7 @@ mod tests {
     #[test]
     fn what_is_not_clear_is_asked() {
         for (text, part) in [
-            ("5.0112 V ± 0.0046 V", "must be said"),
+            ("5.0112 V ± 0.0046 V", "state the coverage"),
             ("5.0112 V ± 0.0046 (k=2)", "has no unit"),
             ("5.01 ± 1 % (k=2)", "or both are in %"),
             ("0.6035 ± 0.5 % (k=2)", "`0.6035 ± 0.0030 (k=2)` or `(0.6035 ± 0.5) % (k=2)`"),
@@ -756,7 +756,7 @@ mod tests {
             ("5.01(2", "not closed"),
             ("5.01(x) V", "last digits"),
             ("5 +0.2 +0.1", "one below"),
-            ("5.0112 V ± 0.0046 V (n=2)", "must be said"),
+            ("5.0112 V ± 0.0046 V (n=2)", "state the coverage"),
             ("5.0 V ± 0.1 V (k=2, rectangular)", "`rectangular` is not known there"),
             ("5.0 V ± 0.1 V (k=2, k=3)", "`k` is said twice"),
             // t distribution with 3 degrees of freedom: 3.18 for 95 %, 0.765 for 50 %
@@ -766,7 +766,7 @@ mod tests {
             ("5.0 V ± 0.1 V, k = 2,28", "with a point"),
             ("5.0 V ± 0.1 V, k = 2 (95 %", "not closed"),
             ("5.0 V ± 0.1 V,", "not known there"),
-            ("5.0 V, U = 0.1 V", "must be said"),
+            ("5.0 V, U = 0.1 V", "state the coverage"),
             ("5.0 V, U = , k = 2", "a number is needed after `U =`"),
             ("5.0 V, u = 0.1 V, k = 2", "`u =` is a standard uncertainty"),
             ("5.0 V, s = 0.1 V", "is no unit"),
@@ -780,7 +780,7 @@ mod tests {
             ("5.0 V ± 0.1 V (k=2, p=99 %)", "k = 2 is less than the 2.58"),
             ("5.0 V ± 0.1 V (k=1.65, 95 %)", "name it"),
             ("5.0 V ± 0.1 V (k=3, p=95 %)", "write `k=3` alone, or `p=95 %, dof=3`"),
-            ("5.0 V ± 0.1 V (2)", "`2` alone does not say"),
+            ("5.0 V ± 0.1 V (2)", "`2` alone is ambiguous"),
             ("5.0 V ± 0.1 V (k=2,28)", "with a point"),
             ("5.0 V, U = 0.1 V, p = 95 %, dof = 0", "above zero"),
             ("1.0e-3(2)e2 V", "one power of ten"),

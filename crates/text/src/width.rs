@@ -280,7 +280,7 @@ mod tests {
         let wrong = |text: &str| Width::specification(text, &volt, &[]).unwrap_err();
         assert!(wrong("0.02 % of reading + 0.01 % of range").contains("such as `0.01 % of 10 V`"));
         for text in ["0.02 % of 20 V + 3 digits", "3 digit"] {
-            assert!(wrong(text).contains("how large a digit is"), "{}", wrong(text));
+            assert!(wrong(text).contains("the size of a digit"), "{}", wrong(text));
         }
     }
 
@@ -324,7 +324,7 @@ mod tests {
             [("1 ppm", "umol/mol"), ("5 ppm", "uV/V"), ("2 ppb", "umol/mol"), ("1 %", "cg/g")]
         {
             let error = read(text, unit).unwrap_err();
-            assert!(error.contains("it is not clear what"), "{text} {unit}: {error}");
+            assert!(error.contains("is unclear"), "{text} {unit}: {error}");
             let of_reading = read(&format!("{text} of reading"), unit).unwrap();
             assert!(of_reading.is_relative_only(), "{text} {unit}");
         }
@@ -345,9 +345,9 @@ mod tests {
                 let width = read(text, unit).unwrap();
                 assert!((width.at(2.0) - expected).abs() < 1e-15, "{text} of 2 {unit}");
             }
-            assert!(read("1 digit", unit).unwrap_err().contains("how large a digit is"));
+            assert!(read("1 digit", unit).unwrap_err().contains("the size of a digit"));
         }
-        assert!(read("1 LSB", "deg").unwrap_err().contains("how large a digit is"));
+        assert!(read("1 LSB", "deg").unwrap_err().contains("the size of a digit"));
         assert!(read("0.1 %/2", "%").unwrap_err().contains("of reading"));
         assert_eq!(read("3 count", "1").unwrap().at(7.0), 3.0);
         assert_eq!(read("3 um/m", "1").unwrap().at(7.0), 3e-6);

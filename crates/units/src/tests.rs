@@ -267,9 +267,9 @@ fn carats_are_no_centitonnes() {
     assert_eq!(Unit::parse("ct").unwrap().to_si(5.0), 0.001);
     assert_eq!(Unit::parse("kt").unwrap().factor(), 1e6);
     let refused = |text: &str| Unit::parse(text).unwrap_err().to_string();
-    assert_eq!(refused("mt"), "the prefix `m` cannot stand before `t`; write `1e-3*t`");
-    assert_eq!(refused("dt"), "the prefix `d` cannot stand before `t`; write `1e-1*t`");
-    assert_eq!(refused("kct"), "the prefix `k` cannot stand before `ct`; write `1e3*ct`");
+    assert_eq!(refused("mt"), "`t` does not take the prefix `m`; write `1e-3*t`");
+    assert_eq!(refused("dt"), "`t` does not take the prefix `d`; write `1e-1*t`");
+    assert_eq!(refused("kct"), "`ct` does not take the prefix `k`; write `1e3*ct`");
 }
 
 /// A near name of another kind is worse than none.
@@ -315,8 +315,8 @@ fn messages_read_well() {
     let cases = [
         ("Kg", "`Kg` is not a known unit; did you mean `kg`?"),
         ("mhz", "`mhz` is not a known unit; did you mean `mHz` or `MHz`?"),
-        ("qqq", "`qqq` is not a known unit; write units like `mm`, `kg*m^-3` or `m/s^2`"),
-        ("mdegC", "the prefix `m` cannot stand before `degC`; write `mK`"),
+        ("qqq", "`qqq` is not a known unit; write write units like `mm`, `kg*m^-3` or `m/s^2`"),
+        ("mdegC", "`degC` does not take the prefix `m`; write `mK`"),
         (
             "m-3",
             "`-` is not allowed here; expected `*`, `/`, `^` or the end of the unit; did you mean \

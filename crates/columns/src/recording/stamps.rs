@@ -216,6 +216,6 @@ mod tests {
         let changed = seconds(&["3/2/2026 23:59:59", "3/3/2026 00:00:00"]);
         assert!(changed[1].as_ref().is_err_and(|reason| reason.contains("the date changes")));
         let mixed = seconds(&["12:00:00", "2026-03-02 12:00:01"]);
-        assert!(mixed[1].as_ref().is_err_and(|reason| reason.contains("not written as")));
+        assert!(mixed[1].as_ref().is_err_and(|reason| reason.contains("not written like")));
     }
 }

@@ -372,7 +372,7 @@ mod tests {
         // for a table only the zeros of its own rows
         let zeros = Layout { entities: Vec::new(), ..zeros };
         let said = zeros.check_shown([0].iter()).unwrap_err();
-        assert!(said.starts_with("its cell C1 is a formula whose stored value is 0"), "{said}");
+        assert!(said.starts_with("its cell C1 is a formula with the stored value 0"), "{said}");
         assert_eq!(zeros.check_shown([1, 2].iter()), Ok(()));
         assert_eq!(
             Layout::of_text("<row hidden=\"1\"><c", &[]),
