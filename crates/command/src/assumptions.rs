@@ -118,21 +118,7 @@ impl Assumptions {
             (Some(trials), _) => trials,
             (None, Trials::Adaptive | Trials::Fixed(0)) => USUAL,
             (None, Trials::Fixed(trials)) if trials < FEWEST => {
-<<<<<<< ours
                 warnings.push(Warning::new("", fact!("few-trials.audit", trials, made = FEWEST)));
-||||||| base
-                let text = format!(
-                    "{trials} trials are too few to tell how assumptions move the result; {FEWEST} \
-                     are made"
-                );
-                warnings.push(Warning::new("few-trials", "", text));
-=======
-                let text = format!(
-                    "{trials} trials are too few to detect the effect of assumptions; {FEWEST} \
-                     are made"
-                );
-                warnings.push(Warning::new("few-trials", "", text));
->>>>>>> theirs
                 FEWEST
             }
             (None, Trials::Fixed(trials)) => trials.min(MOST),

@@ -306,21 +306,7 @@ fn notes(file: &CertificateFile, issued: &Issued) -> Vec<Warning> {
             && let Some(why) = seeded(issued, line)
         {
             let row = number + 1;
-<<<<<<< ours
             notes.push(Warning::new(format!("row {row}"), fact!("digits-of-trials", row, why)));
-||||||| base
-            let text = format!(
-                "row {row}: its figures are those of the trials, whose last digit depends on the \
-                 seed: {why}"
-            );
-            notes.push(Warning::new("digits-of-trials", format!("row {row}"), text));
-=======
-            let text = format!(
-                "row {row}: its values come from the trials, so that their last digit depends on \
-                 the seed: {why}"
-            );
-            notes.push(Warning::new("digits-of-trials", format!("row {row}"), text));
->>>>>>> theirs
         }
         let Some(limit) = statement.limit.filter(|limit| limit.below) else { continue };
         let task = file.certificate.evaluations.get(line.evaluation).map(|asked| &asked.task);
@@ -369,21 +355,7 @@ fn not_stated(certificate: &Asked) -> Option<Warning> {
         .filter(|(_, stated)| !stated)
         .map(|(key, _)| format!("`{key}`"))
         .collect();
-<<<<<<< ours
     (!missing.is_empty()).then(|| Warning::new("certificate", fact!("not-stated", missing)))
-||||||| base
-    let text = format!(
-        "the certificate does not say what ISO/IEC 17025:2017, 7.8.2.1 and 7.8.4.1 ask for: {}",
-        missing.join(", ")
-    );
-    (!missing.is_empty()).then(|| Warning::new("not-stated", "certificate".to_owned(), text))
-=======
-    let text = format!(
-        "the certificate lacks items required by ISO/IEC 17025:2017, 7.8.2.1 and 7.8.4.1: {}",
-        missing.join(", ")
-    );
-    (!missing.is_empty()).then(|| Warning::new("not-stated", "certificate".to_owned(), text))
->>>>>>> theirs
 }
 
 /// A certificate that cannot be issued, as an error with its position if the user caused it.

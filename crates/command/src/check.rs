@@ -34,43 +34,7 @@ struct Verdict<'n> {
     warnings: Vec<Note<'n>>,
 }
 
-<<<<<<< ours
 /// An error in a file as `check --format json` reports it.
-||||||| base
-/// A note, with the keys that it has in every answer.
-#[derive(Debug, Serialize)]
-struct Said<'n> {
-    code: &'n str,
-    #[serde(rename = "where")]
-    place: &'n str,
-    text: &'n str,
-}
-
-impl<'n> From<&'n Warning> for Said<'n> {
-    fn from(Warning { code, place, text }: &'n Warning) -> Self {
-        Self { code, place, text }
-    }
-}
-
-/// A mistake in a file as `check --format json` tells it.
-=======
-/// A note with the keys that it has in every answer.
-#[derive(Debug, Serialize)]
-struct Said<'n> {
-    code: &'n str,
-    #[serde(rename = "where")]
-    place: &'n str,
-    text: &'n str,
-}
-
-impl<'n> From<&'n Warning> for Said<'n> {
-    fn from(Warning { code, place, text }: &'n Warning) -> Self {
-        Self { code, place, text }
-    }
-}
-
-/// An error in a file as `check --format json` reports it.
->>>>>>> theirs
 #[derive(Clone, Debug, PartialEq, Eq, Serialize)]
 pub struct Mistake {
     /// The file's name.

@@ -20,13 +20,7 @@ use gumption_gap as gap;
 use gumption_gap::check::{BlindDraw, CheckedNoise, Truth, score, truth};
 use gumption_report as report;
 
-<<<<<<< ours
-/// Test the diagnosis on simulated data of this case (blind).
-||||||| base
-/// Check the diagnosis blindly at a case's own design.
-=======
 /// Test the diagnosis on simulated data of a case (blind).
->>>>>>> theirs
 ///
 /// The test uses the case's design, uncertainties and candidate effects, not its data.
 #[derive(Debug, Args)]

@@ -110,13 +110,7 @@ enum Command {
     Plan(plan::Planning),
     /// Diagnose where measured data depart from a model, and which effect is missing
     Gap(gap::Gap),
-<<<<<<< ours
-    /// Test the diagnosis on simulated data of this case (blind)
-||||||| base
-    /// Check that diagnosis blindly at a case's own design: how far its answers can be trusted
-=======
     /// Test the diagnosis on simulated data of a case (blind)
->>>>>>> theirs
     GapCheck(gap_check::GapCheck),
     /// Determine amplitudes, phases and delays with their uncertainties from raw recordings
     Observe(observe::Observe),

@@ -184,16 +184,8 @@ trait Frames {
         false
     }
 
-<<<<<<< ours
     /// The lines above the samples that are skipped, of the file of that name.
     fn passed_by(&self, _name: &str) -> Option<Fact> {
-||||||| base
-    /// What stands above the samples and is not read, in words.
-    fn passed_by(&self) -> Option<String> {
-=======
-    /// A description of the lines above the samples that were skipped.
-    fn passed_by(&self) -> Option<String> {
->>>>>>> theirs
         None
     }
 

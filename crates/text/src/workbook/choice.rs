@@ -89,16 +89,10 @@ fn told(own: &SheetName, sheets: &[SheetName]) -> Option<Fact> {
         .then(|| fact!("sheet-chosen", sheet = &own.name, others = Argument::one_of(others)))
 }
 
-<<<<<<< ours
 /// Sheets that a sentence names, at most.
 const MOST_NAMED: usize = 10;
 
 /// Names of sheets in a sentence.
-||||||| base
-/// Names of sheets in a sentence; not more than the first ten.
-=======
-/// Names of sheets in a sentence; at most the first ten.
->>>>>>> theirs
 fn list<'a>(sheets: impl Iterator<Item = &'a SheetName>, and: &str) -> String {
     let named = |sheet: &SheetName| {
         format!("`{}`{}", sheet.name, if sheet.is_hidden { " (hidden)" } else { "" })

@@ -27,9 +27,9 @@ fn normals(count: usize) -> Vec<Vec<f64>> {
 
 /// The smallest region of 95 % of these columns.
 fn region(columns: &[Vec<f64>]) -> Result<SmallestRegion, String> {
-    let deviations = |values: &Vec<f64>| -> Vec<f64> {
-        let mean = values.iter().sum::<f64>() / values.len() as f64;
-        values.iter().map(|x| x - mean).collect()
+    let deviations = |of: &Vec<f64>| -> Vec<f64> {
+        let mean = of.iter().sum::<f64>() / of.len() as f64;
+        of.iter().map(|x| x - mean).collect()
     };
     let deviations: Vec<Vec<f64>> = columns.iter().map(deviations).collect();
     let covariance =
@@ -40,14 +40,14 @@ fn region(columns: &[Vec<f64>]) -> Result<SmallestRegion, String> {
     }
     packed::cholesky(&mut root, 0.0).unwrap();
     let place = |trial: usize| {
-        let mut place = TrialPlace::default();
+        let mut place = Place::default();
         for (at, of) in place.iter_mut().zip(&deviations) {
             *at = of[trial];
         }
         packed::solve(&root, &mut place[..columns.len()]);
         place
     };
-    let places: Vec<TrialPlace> = (0..columns[0].len()).map(place).collect();
+    let places: Vec<Place> = (0..columns[0].len()).map(place).collect();
     smallest(&places, &root, 0.95)
 }
 
@@ -133,45 +133,9 @@ fn uniform_ones(order: usize) {
 }
 
 #[test]
-<<<<<<< ours
-fn skew_outputs() {
-    for (order, exponential, lognormal) in [
-        (2, 11.252_125_28, 5.423_213_23),
-        (3, 41.591_080_15, 14.342_831_85),
-        (4, 150.596_539_7, 37.500_421_14),
-    ] {
-        let u = uniform(order);
-        let made = |quantile: fn(f64) -> f64| -> Vec<Vec<f64>> {
-            u.iter().map(|column| column.iter().map(|u| quantile(*u)).collect()).collect()
-        };
-        let x = made(|u| -crate::number::elementary::ln(u));
-        check("exponential", &x, exponential, 0.1);
-        let sums = chained(&x, |own, before| own + before);
-        check("sums of exponentials", &sums, exponential, 0.1);
-        let x = made(|u| exp(0.5 * special::normal::quantile(u)));
-        check("lognormal", &x, lognormal, 0.06);
-||||||| base
-fn skew_outputs() {
-    for (order, exponential, lognormal) in [
-        (2, 11.252_125_28, 5.423_213_23),
-        (3, 41.591_080_15, 14.342_831_85),
-        (4, 150.596_539_7, 37.500_421_14),
-    ] {
-        let u = uniform(order);
-        let made = |of: fn(f64) -> f64| -> Vec<Vec<f64>> {
-            u.iter().map(|column| column.iter().map(|u| of(*u)).collect()).collect()
-        };
-        let x = made(|u| -crate::number::elementary::ln(u));
-        check("exponential", &x, exponential, 0.1);
-        let sums = chained(&x, |own, before| own + before);
-        check("sums of exponentials", &sums, exponential, 0.1);
-        let x = made(|u| exp(0.5 * special::normal::quantile(u)));
-        check("lognormal", &x, lognormal, 0.06);
-=======
 fn two_outputs() {
     for study in [normal_ones, multivariate_t, skew_ones, uniform_ones] {
         study(2);
->>>>>>> theirs
     }
 }
 
@@ -197,12 +161,12 @@ fn no_volume() {
     let product: Vec<f64> = z[0].iter().zip(&z[1]).map(|(a, b)| a * b).collect();
     let square: Vec<f64> = z[0].iter().map(|a| a * a).collect();
     let of = |columns: &[&Vec<f64>]| {
-        region(&columns.iter().map(|column| (*column).clone()).collect::<Vec<_>>()).unwrap_err()
+        region(&columns.iter().map(|of| (*of).clone()).collect::<Vec<_>>()).unwrap_err()
     };
     assert!(of(&[&z[0], &z[1], &product]).contains("curved surface"));
     assert!(of(&[&z[0], &square]).contains("curved surface"));
     let counts: Vec<f64> = z[0].iter().map(|z| (4.0 * z).round()).collect();
     assert!(of(&[&z[1], &counts]).contains("single values"));
-    let few: Vec<Vec<f64>> = z.iter().map(|column| column[..4000].to_vec()).collect();
+    let few: Vec<Vec<f64>> = z.iter().map(|of| of[..4000].to_vec()).collect();
     assert!(of(&[&few[0], &few[1]]).contains("there are 4000, 200 of them outside"));
 }
