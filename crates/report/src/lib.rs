@@ -48,9 +48,9 @@ pub(crate) use table::conditions_text;
 pub use table::{BudgetColumn, TableStyle, table, write_table};
 pub use table::{grouped, plain, within_width, wrapped};
 
-use gumption_analysis::integrity::sha256;
 use gumption_engine::propagate::Evaluation;
 use gumption_engine::task::{Task, Warning};
+use gumption_text::bytes::sha256;
 
 /// Where a result comes from: enough to repeat it.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]

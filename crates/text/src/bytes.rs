@@ -1,4 +1,4 @@
-//! The content of files, up to a size.
+//! The content of files, up to a size, and what tells it from others.
 
 use std::borrow::Cow;
 use std::fmt;
@@ -6,12 +6,19 @@ use std::fs::File;
 use std::io::{self, Read};
 use std::path::Path;
 
+use sha2::{Digest, Sha256};
+
 /// Bytes of a model file, a result file or a table, at most. What is read takes up to a dozen times
 /// as much memory.
 pub const MOST: u64 = 50_000_000;
 
 /// Bytes of a file of samples, at most.
 pub const MOST_OF_SAMPLES: u64 = 200_000_000;
+
+/// The SHA-256 digest of bytes (FIPS 180-4), 64 hexadecimal digits.
+pub fn sha256(bytes: &[u8]) -> String {
+    Sha256::digest(bytes).iter().map(|byte| format!("{byte:02x}")).collect()
+}
 
 /// The content of a file of at most so many bytes, or why there is none. Of a larger one, or of a
 /// device without an end, no more than that is read.
