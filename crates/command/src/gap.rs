@@ -64,7 +64,7 @@ impl Gap {
         self.answer.say(&file.warnings);
         let diagnosis = self.diagnose(&file, at.as_deref(), &stop)?;
         let answer = match self.answer.format {
-            Format::Table => report::gap::table(&diagnosis),
+            Format::Table => report::gap::table(&diagnosis, &self.provenance(&file)?),
             Format::Html => page(report::gap::html(&diagnosis, &self.provenance(&file)?)),
             Format::Markdown => report::gap::markdown(&diagnosis, &self.provenance(&file)?),
             Format::Json => report::gap::json(&diagnosis),

@@ -121,8 +121,9 @@ impl Reader<'_> {
         let form: serde_json::Result<ResultForm> = serde_json::from_str(text);
         // of what was changed it is said already
         let form = if self.log.is_clean() { self.parsed(form)? } else { form.ok()? };
-        self.report_all(check::ranges(&form));
-        if !self.log.is_clean() {
+        let mistakes = check::ranges(&form);
+        if !mistakes.is_empty() {
+            self.report_all(mistakes);
             return None;
         }
         let inputs: Vec<Root> = form.inputs.iter().map(root).collect();
