@@ -92,7 +92,7 @@
 //! # use gumption::distribution::Input;
 //! # use gumption::propagate::{Control, evaluate, warnings};
 //! # use gumption::task::Task;
-//! use gumption::report::{EvaluationReport, Provenance, Shown, TableStyle, html, table};
+//! use gumption::report::{EvaluationReport, Provenance, Shown, html, table};
 //!
 //! let task = Task::builder("power of a heater")
 //!     .input("U", Input::normal(10.0, 0.05, "V")?)
@@ -109,7 +109,7 @@
 //!     provenance: &Provenance::default(),
 //! };
 //! // P = 2 W, u = 2 W sqrt((2 * 0.005)^2 + (0.01 / sqrt(3))^2) = 0.0231 W
-//! assert!(table(&report, &TableStyle::default()).contains("0.023"));
+//! assert!(table(&report, &Shown::default()).contains("0.023"));
 //! assert!(html(&report, &Shown::default()).contains("power of a heater"));
 //! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```

@@ -7,6 +7,5 @@
 pub mod certificate;
 pub mod compare;
 pub mod diff;
-pub mod integrity;
 pub mod plan;
 pub mod verification;

@@ -16,7 +16,7 @@ use gumption_engine::task::{Task, Trials};
 use gumption_files::ModelFile;
 use gumption_report as report;
 use gumption_report::words;
-use gumption_report::{BudgetColumn, EvaluationReport, Shown, TableStyle};
+use gumption_report::{BudgetColumn, EvaluationReport, Shown};
 
 /// How to give the answer of an evaluation, and what to write besides it.
 #[derive(Debug, Args)]
@@ -252,11 +252,7 @@ fn write(
     out: &mut dyn Write,
 ) -> io::Result<()> {
     match format {
-        Page::Table => {
-            let style = TableStyle { columns: shown.columns.to_vec(), ..TableStyle::default() };
-            report::write_table(report, &style, &mut *out)?;
-            out.write_all(report::histograms(report, shown).as_bytes())
-        }
+        Page::Table => out.write_all(report::table(report, shown).as_bytes()),
         Page::Json => report::write_json(report, out),
         Page::Csv => report::write_csv(report, out),
         Page::Markdown => out.write_all(report::markdown(report, shown).as_bytes()),

@@ -64,7 +64,7 @@ impl Gap {
         self.answer.say(&file.warnings);
         let diagnosis = self.diagnose(&file, at.as_deref(), &stop)?;
         let answer = match self.answer.format {
-            GapFormat::Table => report::gap::table(&diagnosis),
+            GapFormat::Table => report::gap::table(&diagnosis, &self.provenance(&file)?),
             GapFormat::Html => page(report::gap::html(&diagnosis, &self.provenance(&file)?)),
             GapFormat::Markdown => report::gap::markdown(&diagnosis, &self.provenance(&file)?),
             GapFormat::Json => report::gap::json(&diagnosis),

@@ -132,12 +132,10 @@ impl GapCheck {
         }
         let scores = self.threads.install(|| score(&file.case, checked, seed));
         let design = report::gap::check::CheckedDesign::of(&file.case, self.noise.into());
+        let provenance = run::provenance(&file.source.text, &file.files);
         let answer = match self.answer.format {
-            GapCheckFormat::Table => report::gap::check::table(&design, &scores),
-            GapCheckFormat::Html => {
-                let provenance = run::provenance(&file.source.text, &file.files);
-                page(report::gap::check::html(&design, &scores, &provenance))
-            }
+            GapCheckFormat::Table => report::gap::check::table(&design, &scores, &provenance),
+            GapCheckFormat::Html => page(report::gap::check::html(&design, &scores, &provenance)),
             GapCheckFormat::Json => report::gap::check_json(&design.title, design.noise, &scores),
         };
         place.write(&answer)?;

@@ -11,13 +11,13 @@ use super::options::{
     self, AnswerOptions, CoverageOption, Interactive, ModelArguments, Seed, Threads,
 };
 use super::{CommandLine, Exit, Failure, progress, run, signals};
-use gumption_analysis::integrity;
 use gumption_analysis::plan::{Costs, DriftLaw, NoPlan, Plan, PlanQuestion, plan};
 use gumption_engine::number::Shortest;
 use gumption_engine::task::{Task, Trials};
 use gumption_files as file;
 use gumption_files::{CostFile, ModelFile};
 use gumption_report::plan as report;
+use gumption_text::bytes::sha256;
 
 /// Plan towards a wanted uncertainty.
 #[derive(Debug, Args)]
@@ -103,7 +103,7 @@ impl Planning {
         if let (Some(path), Some(text)) = (&self.cost, cost_text) {
             let name =
                 path.file_name().map_or_else(String::new, |n| n.to_string_lossy().into_owned());
-            provenance.files.push((name, integrity::sha256(text.as_bytes())));
+            provenance.files.push((name, sha256(text.as_bytes())));
         }
         let report = report::PlanReport {
             task: &task,

@@ -9,11 +9,11 @@ use serde::{Deserialize, Serialize};
 use super::Failure;
 use super::parted_run::refused;
 use super::parts::{missing, ranges};
-use gumption_analysis::integrity::sha256;
 use gumption_engine::number::smallest_first;
 use gumption_files::CaseFile;
 use gumption_gap::check::{BlindDraw, CheckedNoise};
 use gumption_text::bytes;
+use gumption_text::bytes::sha256;
 
 /// The test to which draws belong: everything that they depend on.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]

@@ -8,7 +8,7 @@ use super::costs;
 use super::model_reader::{ModelOptions, read_with};
 use super::open::is_table_of_results;
 use super::recipe;
-use super::result_file;
+use super::result;
 use gumption_engine::task::Warning;
 use gumption_text::json::{self, Json};
 use gumption_text::{Diagnostics, SourceText};
@@ -52,7 +52,7 @@ impl TextKind {
             Self::Costs
         } else if certificate::is_meant(&root) {
             Self::Certificate
-        } else if result_file::is_meant(&root) || has("gumption") {
+        } else if result::is_meant(&root) || has("gumption") {
             Self::Result
         } else if has("observations") {
             Self::Case
@@ -93,8 +93,8 @@ pub(super) fn check_text(
         if costs::is_meant(&root) {
             return costs::check_text(name, text).map(|()| Vec::new());
         }
-        if result_file::is_meant(&root) {
-            return result_file::read_text(files, name, text).map(|file| file.warnings);
+        if result::is_meant(&root) {
+            return result::read_text(files, name, text).map(|file| file.warnings);
         }
         if certificate::is_meant(&root) {
             return certificate::read_text(files, name, text, folder).map(|file| file.warnings);

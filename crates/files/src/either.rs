@@ -4,7 +4,7 @@ use std::path::Path;
 
 use super::context::Context;
 use super::model_file::{self, ModelFile};
-use super::result_file::{self, ResultFile};
+use super::result::{self, ResultFile};
 use gumption_engine::task::Warning;
 use gumption_text::json::{self, Json};
 use gumption_text::{Diagnostic, DiagnosticKind, Diagnostics, SourceText};
@@ -41,7 +41,7 @@ pub(super) fn read_text(
         _ => false,
     });
     Ok(if is_result {
-        ModelOrResult::Result(result_file::read_text(files, name, text)?)
+        ModelOrResult::Result(result::read_text(files, name, text)?)
     } else {
         ModelOrResult::Model(Box::new(model_file::read_text(files, name, text, folder, &[])?))
     })

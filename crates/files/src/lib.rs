@@ -50,9 +50,7 @@ mod reader;
 mod readings;
 mod recipe;
 mod regions;
-mod result_consistency;
-mod result_file;
-mod result_outputs;
+pub mod result;
 mod results;
 mod samples;
 pub mod schema;
@@ -88,7 +86,7 @@ pub use reader::{
     read_recipe_text, read_result, read_text,
 };
 pub use recipe::{OpenedRow, RecipeCondition, RecipeFile, RecipeRow};
-pub use result_file::{ResultFile, SavedOutput};
+pub use result::{ResultFile, SavedOutput};
 pub use shared_run::{
     SharedFileError, SharedFileHeader, SharedFileKind, SharedModelError, SharedRun, shared_file,
     shared_file_bytes,

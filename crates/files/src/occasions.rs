@@ -11,8 +11,8 @@ use std::sync::Arc;
 
 use super::input_set::InputSet;
 use super::overrides::Override;
-use gumption_analysis::integrity::sha256;
 use gumption_engine::distribution::Occasion;
+use gumption_text::bytes::sha256;
 
 /// Tells all variables; `files` are the files that were read, by name, and `are_swept` is whether there
 /// are conditions.

@@ -11,7 +11,7 @@ use super::model_file::{self, ModelFile};
 use super::open::open;
 use super::overrides::Override;
 use super::recipe::{self, RecipeFile};
-use super::result_file::{self, ResultFile};
+use super::result::{self, ResultFile};
 use gumption_engine::model::typed::Catalogue;
 use gumption_engine::task::{Row, Trials, Warning};
 use gumption_text::{Diagnostics, FileSource};
@@ -159,7 +159,7 @@ impl<'c> FileReader<'c> {
 
     /// A saved result's text.
     pub fn result_text(self, name: &str, text: &str) -> Result<ResultFile, Diagnostics> {
-        result_file::read_text(self.0, name, text)
+        result::read_text(self.0, name, text)
     }
 
     /// A recipe; its recordings are opened later.

@@ -7,7 +7,7 @@ use std::sync::Arc;
 use super::context::Context;
 use super::dcc::{self, Certificates, FromCertificate};
 use super::open::is_no_object;
-use super::result_file::{self, ResultFile, SavedOutput};
+use super::result::{self, ResultFile, SavedOutput};
 use gumption_engine::distribution::Distribution;
 use gumption_engine::regression::CurveFunction;
 use gumption_engine::task::Warning;
@@ -149,7 +149,7 @@ impl<'a> ResultFiles<'a> {
         if let Some(message) = is_no_object(&text) {
             return unreadable(message);
         }
-        let read = result_file::read_text(self.context, name, &text);
+        let read = result::read_text(self.context, name, &text);
         drop(text);
         match read {
             Ok(result) => {

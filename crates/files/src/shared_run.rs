@@ -16,8 +16,8 @@ use serde_json::{Map, Value, json};
 use super::model_file::ModelFile;
 use super::overrides::Override;
 use super::reader::FileReader;
-use gumption_analysis::integrity::sha256;
 use gumption_engine::task::{Coverage, MethodChoice, Settings, StoppingRule, Trials};
+use gumption_text::bytes::sha256;
 use gumption_text::{Diagnostics, bytes};
 
 /// The first bytes of every such file.

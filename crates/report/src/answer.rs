@@ -84,6 +84,24 @@ impl<F: Formatter> Formatter for Printable<F> {
     }
 }
 
+/// Indented JSON whose lists stand on one line.
+#[derive(Default)]
+pub(crate) struct ListsOnOneLine(PrettyFormatter<'static>);
+
+impl Formatter for ListsOnOneLine {
+    as_usual! {
+        begin_object();
+        end_object();
+        begin_object_key(first: bool);
+        begin_object_value();
+        end_object_value();
+    }
+
+    fn begin_array_value<W: ?Sized + Write>(&mut self, out: &mut W, first: bool) -> io::Result<()> {
+        out.write_all(if first { b"" } else { b", " })
+    }
+}
+
 /// What `write` writes, as text.
 ///
 /// # Panics

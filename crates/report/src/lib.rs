@@ -37,21 +37,19 @@ pub use answer::{on_one_line, pretty};
 pub use budget_template::budget_template;
 pub use csv::{csv, write_csv};
 pub use evaluation::{
-    MOST_RESULTS, OutputParts, PageChoice, PageParts, ResultStatement, Shown, histograms, html,
-    input_picture, latex, markdown, page_parts, xlsx,
+    MOST_RESULTS, OutputParts, PageChoice, PageParts, ResultStatement, Shown, html, input_picture,
+    latex, markdown, page_parts, table, xlsx,
 };
 pub use html::{FigureSize, interactive, interactive_script_digest, page_style};
 pub use json::{json, write_json};
 pub use samples::TrialsForm;
 pub use saved::{SaveError, saved, saved_result};
-pub use table::Grid;
 pub(crate) use table::conditions_text;
-pub use table::{BudgetColumn, TableStyle, table, write_table};
-pub use table::{grouped, plain, within_width, wrapped};
+pub use table::{BudgetColumn, Grid, grouped, plain, within_width, wrapped};
 
-use gumption_analysis::integrity::sha256;
 use gumption_engine::propagate::Evaluation;
 use gumption_engine::task::{Task, Warning};
+use gumption_text::bytes::sha256;
 
 /// Where a result comes from: enough to repeat it.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]

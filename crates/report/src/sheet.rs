@@ -8,6 +8,8 @@ pub(crate) struct Sheet {
     pub(crate) columns: Vec<SheetColumn>,
     /// Whether the last row sums up the others.
     pub(crate) footer: bool,
+    /// How many columns tell which row it is; the first one alone if there are none.
+    pub(crate) naming: usize,
 }
 
 /// A column of a table.
@@ -15,12 +17,16 @@ pub(crate) struct Sheet {
 pub(crate) struct SheetColumn {
     /// What stands above it; a line break may be in it.
     pub(crate) header: String,
+    /// What stands above it where the page is too narrow for that.
+    pub(crate) narrow: Option<String>,
     /// The cells as a page shows them.
     pub(crate) cells: Vec<String>,
     /// The numbers that the cells were rounded from, where they are known: as many as cells, or
     /// none at all.
     pub(crate) values: Vec<Option<f64>>,
     pub(crate) kind: ColumnKind,
+    /// Whether it stands behind the others where a page is too narrow for one table.
+    pub(crate) aside: bool,
 }
 
 /// What the cells of a column are.
@@ -86,6 +92,13 @@ impl Sheet {
         }
     }
 
+    /// Where a page is too narrow for one table, the last column stands behind the others.
+    pub(crate) fn aside(&mut self) {
+        if let Some(column) = self.columns.last_mut() {
+            column.aside = true;
+        }
+    }
+
     /// Adds a column of a kind.
     pub(crate) fn push(
         &mut self,
@@ -94,12 +107,20 @@ impl Sheet {
         kind: ColumnKind,
     ) {
         let cells = cells.into_iter().collect();
+        let (header, narrow, values) = (header.to_owned(), None, Vec::new());
         self.columns.push(SheetColumn {
-            header: header.to_owned(),
+            header, narrow,
             cells,
-            values: Vec::new(),
-            kind,
+            values,
+            kind, aside: false,
         });
+    }
+
+    /// Gives the last column another header for pages that are too narrow.
+    pub(crate) fn narrow(&mut self, header: &str) {
+        if let Some(column) = self.columns.last_mut() {
+            column.narrow = Some(header.to_owned());
+        }
     }
 
     /// The same with decimal commas in its numbers.

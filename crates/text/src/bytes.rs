@@ -1,4 +1,4 @@
-//! Reads the content of files up to a maximum size.
+//! Reads the content of files up to a maximum size, and what tells it from others.
 
 use std::borrow::Cow;
 use std::fmt;
@@ -6,12 +6,19 @@ use std::fs::File;
 use std::io::{self, Read};
 use std::path::Path;
 
+use sha2::{Digest, Sha256};
+
 /// Maximum size of a model file, a result file or a table, in bytes. Reading takes up to twelve
 /// times as much memory.
 pub const MOST: u64 = 50_000_000;
 
 /// Maximum size of a file of samples, in bytes.
 pub const MOST_OF_SAMPLES: u64 = 200_000_000;
+
+/// The SHA-256 digest of bytes (FIPS 180-4), 64 hexadecimal digits.
+pub fn sha256(bytes: &[u8]) -> String {
+    Sha256::digest(bytes).iter().map(|byte| format!("{byte:02x}")).collect()
+}
 
 /// The content of a file of at most `most` bytes, or why it cannot be read. Of a larger file or an
 /// endless device, at most `most + 1` bytes are read.

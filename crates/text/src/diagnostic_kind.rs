@@ -429,7 +429,7 @@ pub enum DiagnosticKind {
     /// A list of a result file whose entries do not fit.
     SavedEntry {
         /// Why, as a part of the sentence.
-        reason: &'static str,
+        reason: String,
     },
     /// A saved result and an input whose units have different zeros: degC and K, degC and degF, dBm
     /// and dBW.

@@ -93,7 +93,7 @@ pub fn parse(source: &SourceText) -> Result<Node, (Range<usize>, DiagnosticKind)
         return Err((0..0, DiagnosticKind::Empty));
     }
     if let Err(error) = serde_json::from_str::<Checked>(&source.text) {
-        return Err(syntax(source, &error));
+        return Err(mistake(source, &error));
     }
     let strict = ParseOptions {
         allow_comments: false,
@@ -167,8 +167,8 @@ impl<'de> Visitor<'de> for Checked {
     }
 }
 
-/// The parser's message without its position, and the position as a range.
-fn syntax(source: &SourceText, error: &serde_json::Error) -> (Range<usize>, DiagnosticKind) {
+/// What the parser says of a text without its position, and the position as a half-open range of bytes.
+pub fn mistake(source: &SourceText, error: &serde_json::Error) -> (Range<usize>, DiagnosticKind) {
     let full = error.to_string();
     let message = full.split(" at line ").next().unwrap_or(&full).to_owned();
     let start = source.line_start(error.line());

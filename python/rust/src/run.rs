@@ -9,9 +9,7 @@ use gumption::propagate::monte_carlo::{Histogram, MonteCarlo};
 use gumption::propagate::{
     Control, Evaluation, EvaluationError, convergence, for_each_block, histograms,
 };
-use gumption::report::{
-    self, EvaluationReport, Provenance, SaveError, Shown, TableStyle, TrialsForm,
-};
+use gumption::report::{self, EvaluationReport, Provenance, SaveError, Shown, TrialsForm};
 use gumption::task::{Task, Warning};
 use numpy::{PyArray1, PyArray2, PyArrayMethods};
 use pyo3::exceptions::{PyIndexError, PyKeyError, PyOSError};
@@ -111,7 +109,7 @@ impl Ran {
         let text = match format {
             "json" => report::json(&report),
             "csv" => report::csv(&report),
-            "table" => report::table(&report, &TableStyle::default()),
+            "table" => report::table(&report, &shown),
             "markdown" => report::markdown(&report, &shown),
             "latex" => report::latex(&report, &shown),
             "html" => report::html(&report, &shown),

@@ -106,10 +106,8 @@ fn answered(mut file: ModelFile) {
     };
     let columns = report::BudgetColumn::ALL.to_vec();
     for columns in [Vec::new(), columns] {
-        let page = report::table(
-            &report,
-            &report::TableStyle { columns, ..report::TableStyle::default() },
-        );
+        let shown = report::Shown { columns: &columns, ..report::Shown::default() };
+        let page = report::table(&report, &shown);
         assert!(!page.is_empty());
         let shown = |c: char| c == '\n' || !c.is_control();
         assert!(page.chars().all(shown), "{page:?}");

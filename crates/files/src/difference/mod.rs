@@ -7,7 +7,7 @@ mod tests;
 
 use super::ModelFile;
 use super::either::ModelOrResult;
-use super::result_file::{ResultFile, SavedOutput};
+use super::result::{ResultFile, SavedOutput};
 use gumption_analysis::diff::{
     Difference, LinearOutput, LinearResult, SeveralRows, add_trials, compare, compare_linear,
 };

@@ -8,9 +8,8 @@ mod costs;
 mod fits;
 mod homes;
 mod model_file;
-mod node;
+pub(crate) mod node;
 mod recipe;
-mod result_file;
 mod shapes;
 mod values;
 
@@ -18,6 +17,7 @@ use std::collections::BTreeSet;
 
 use serde_json::Value;
 
+use crate::result;
 pub(crate) use case::{EFFECT, OBSERVATIONS, OBSERVED, PRIOR};
 pub(crate) use certificate::{
     CERTIFICATE, CERTIFICATE_FUNCTION, CERTIFICATE_KEYS, CERTIFICATE_ROW, DEVICE, PARTY,
@@ -63,7 +63,7 @@ pub(crate) fn schema(effects: &BTreeSet<String>) -> Value {
     definitions.extend(costs::definitions());
     definitions.extend(fits::definitions());
     definitions.extend(recipe::definitions());
-    definitions.extend(result_file::definitions());
+    definitions.extend(result::definitions());
     definitions.extend(shapes::definitions());
     definitions.extend(values::definitions());
     object([

@@ -3,23 +3,23 @@
 use serde_json::{Map, Value};
 
 /// An object with the given members.
-pub(super) fn object<K: Into<String>>(members: impl IntoIterator<Item = (K, Value)>) -> Value {
+pub(crate) fn object<K: Into<String>>(members: impl IntoIterator<Item = (K, Value)>) -> Value {
     let members = members.into_iter().map(|(key, value)| (key.into(), value));
     Value::Object(members.collect::<Map<_, _>>())
 }
 
 /// A list of texts.
-pub(super) fn texts<'t>(texts: impl IntoIterator<Item = &'t str>) -> Value {
+pub(crate) fn texts<'t>(texts: impl IntoIterator<Item = &'t str>) -> Value {
     texts.into_iter().collect()
 }
 
 /// A reference to one of the definitions.
-pub(super) fn reference(name: &str) -> Value {
+pub(crate) fn reference(name: &str) -> Value {
     object([("$ref", Value::from(format!("#/$defs/{name}")))])
 }
 
 /// Objects that grow.
-pub(super) trait With {
+pub(crate) trait With {
     /// The same object with one more member.
     #[must_use]
     fn with(self, key: &str, value: impl Into<Value>) -> Self;

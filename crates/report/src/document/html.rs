@@ -95,6 +95,7 @@ fn block(block: &Block, comma: bool, counts: &mut Counts) -> Markup {
             counts.figures += 1;
             figure(counts.figures, drawing)
         }
+        Block::Characters(_) => html! {},
         Block::Signature(places) => html! {
             div.signature { @for place in places { p { (place) } } }
         },

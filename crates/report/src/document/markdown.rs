@@ -52,7 +52,7 @@ fn block(block: &Block, comma: bool, escape: Escape) -> String {
             items.join("\n")
         }
         Block::Table(sheet) => table(sheet, escape),
-        Block::Figure(_) => String::new(),
+        Block::Figure(_) | Block::Characters(_) => String::new(),
         Block::Folded(title, blocks) => {
             let blocks = blocks.iter().map(|part| self::block(part, comma, escape));
             let parts: Vec<String> =

@@ -11,7 +11,7 @@ pub(super) use latex::latex;
 #[cfg(test)]
 pub(crate) use latex::unit::Declared;
 pub(super) use markdown::{markdown, markdown_with_code};
-pub(crate) use text::{below, text};
+pub(crate) use text::text;
 
 use super::html::Drawing;
 use super::sheet::Sheet;
@@ -27,6 +27,8 @@ pub(crate) struct Document {
     pub(crate) language: &'static str,
     /// Whether numbers in tables have a decimal comma; the cells of [`Sheet`]s have points.
     pub(crate) comma: bool,
+    /// Whether it is for a terminal, where figures are drawn in characters.
+    pub(crate) terminal: bool,
     /// The footer of printed pages; by default the title.
     pub(crate) foot: Option<Foot>,
     /// What it says.
@@ -90,6 +92,8 @@ pub(crate) enum Block {
     Table(Sheet),
     /// A figure, which only HTML pages show.
     Figure(Drawing),
+    /// A figure drawn in characters, which only pages for a terminal show; each line ends in a newline.
+    Characters(String),
     /// A part in another language than the document's, with its code of ISO 639-1.
     InLanguage(&'static str, Box<Block>),
     /// Parts that an HTML page shows on request, below their title.
@@ -153,6 +157,18 @@ impl Document {
     /// Adds a figure, if there is one.
     pub(crate) fn figure(&mut self, drawing: Option<Drawing>) {
         self.blocks.extend(drawing.map(Block::Figure));
+    }
+
+    /// Adds a figure, if there is one, as the document's pages show it.
+    pub(crate) fn picture(
+        &mut self,
+        drawn: impl FnOnce() -> Option<Drawing>,
+        in_characters: impl FnOnce() -> Option<String>,
+    ) {
+        self.blocks.extend(match self.terminal {
+            true => in_characters().map(Block::Characters),
+            false => drawn().map(Block::Figure),
+        });
     }
 
     /// The blocks in a format without figures, without parts that are empty there: a section with

@@ -1,27 +1,18 @@
 //! A document as a text page for a terminal.
 
 use super::{Block, Document};
-use crate::sheet::{ColumnKind, Sheet};
 use crate::{Grid, plain, table::width, wrapped};
 
 /// A line for a signature.
 const RULE: &str = "________________________________";
 
-/// Minimum number of letters per line of a text, however narrow the page is.
-const LEAST_TEXT: usize = 10;
-
-/// The whole document, ending in a newline; blocks that text cannot show are left out.
+/// The whole document, ending in a newline; what has no form in text is left out.
 pub(crate) fn text(document: &Document) -> String {
     let mut parts = vec![heading(&document.title, '═')];
     parts.push(document.subtitle.iter().map(|line| wrapped(line)).collect());
-    parts.push(below(document));
+    parts.extend(document.written(|part| block(part, document.comma)));
     parts.retain(|part| !part.is_empty());
     parts.join("\n")
-}
-
-/// The part below title and subtitle.
-pub(crate) fn below(document: &Document) -> String {
-    document.written(|part| block(part, document.comma)).join("\n")
 }
 
 fn heading(title: &str, rule: char) -> String {
@@ -41,40 +32,34 @@ fn block(block: &Block, comma: bool) -> String {
         Block::Verdict(sentences) => sentences.iter().map(|said| wrapped(said)).collect(),
         Block::List(items) => items.iter().map(|item| wrapped(&format!("- {item}"))).collect(),
         Block::Table(sheet) if !sheet.has_headers() => Grid::of(sheet).bare(width()),
-        Block::Table(sheet) => grid(sheet).render(width()),
+        Block::Table(sheet) => Grid::of(sheet).render(width()),
         Block::Figure(_) => String::new(),
+        Block::Characters(drawn) => drawn.clone(),
         Block::Folded(title, blocks) => {
-            let blocks: String = blocks.iter().map(|part| self::block(part, comma)).collect();
-            heading(title, '─') + &blocks
+            let blocks = blocks.iter().map(|part| self::block(part, comma));
+            let mut parts = vec![format!("{}:\n", plain(title))];
+            parts.extend(blocks.filter(|part| !part.is_empty()));
+            parts.join("\n")
         }
         Block::Signature(places) => {
             let line = |place: &String| format!("\n{RULE}\n{}", wrapped(place));
             places.iter().map(line).collect()
         }
         Block::End(text) => wrapped(&format!("— {text} —")),
-        Block::Listing { about, text } => format!("{}{}\n", wrapped(about), text.trim_end()),
-    }
-}
-
-/// A table in which only long texts wrap.
-fn grid(sheet: &Sheet) -> Grid {
-    let mut grid = Grid::default();
-    for column in &sheet.columns {
-        let cells = column.cells.iter().cloned();
-        match column.kind {
-            ColumnKind::Numbers => grid.numbers(&column.header, cells),
-            ColumnKind::Text | ColumnKind::Equations => {
-                grid.text_from(&column.header, LEAST_TEXT, cells)
-            }
-            ColumnKind::Units => grid.units(&column.header, cells),
+        Block::Listing { about, text } => {
+            let line = |line: &str| match line.chars().count() > width() {
+                true => wrapped(line),
+                false => format!("{line}\n"),
+            };
+            wrapped(about) + &text.trim_end().lines().map(line).collect::<String>()
         }
     }
-    grid
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::sheet::Sheet;
 
     #[test]
     fn a_document_is_a_page() {

@@ -14,12 +14,14 @@ use gumption_engine::task::Task;
 const MOST_UNSUMMED: usize = 3;
 
 /// The document of an evaluation: for one row of conditions everything about each output, for a
-/// sweep a table and a figure for each.
-pub(super) fn of(report: &EvaluationReport<'_>, shown: &Shown<'_>) -> Document {
+/// sweep a table and a figure for each. One for a `terminal` has no notes, which stand on standard
+/// error beside it.
+pub(super) fn of(report: &EvaluationReport<'_>, shown: &Shown<'_>, terminal: bool) -> Document {
     let EvaluationReport { task, evaluation, warnings, .. } = *report;
     let title = plain(&task.title);
     let mut document = Document {
         title: if title.is_empty() { "Measurement uncertainty".to_owned() } else { title },
+        terminal,
         ..Document::default()
     };
     document.subtitle.push(table::settings_text(evaluation));
@@ -40,16 +42,16 @@ pub(super) fn of(report: &EvaluationReport<'_>, shown: &Shown<'_>) -> Document {
             results::section(&mut document, report, shown, (output, folded));
         }
     }
-    together_of(&mut document, report);
+    together_of(&mut document, report, shown);
     if let Some(sheet) = quantities(task) {
         document.section("Quantities");
         document.table(sheet);
     }
-    if let Some(drawing) = figures::inputs(task) {
+    if let Some(drawing) = (!terminal).then(|| figures::inputs(task)).flatten() {
         document.section("What is known about the inputs");
         document.figure(Some(drawing));
     }
-    if !warnings.is_empty() {
+    if !warnings.is_empty() && !terminal {
         document.section("Notes");
         document.blocks.push(Block::List(crate::words::lines(warnings)));
     }
@@ -58,14 +60,18 @@ pub(super) fn of(report: &EvaluationReport<'_>, shown: &Shown<'_>) -> Document {
 }
 
 /// What concerns all outputs of an evaluation.
-pub(super) fn together_of(document: &mut Document, report: &EvaluationReport<'_>) {
+pub(super) fn together_of(
+    document: &mut Document,
+    report: &EvaluationReport<'_>,
+    shown: &Shown<'_>,
+) {
     let EvaluationReport { task, evaluation, .. } = *report;
     match evaluation.rows.as_slice() {
         [row] => {
             together(document, task, row);
             crate::regions::sections(document, task, row);
         }
-        _ => sweep::sections(document, report),
+        _ => sweep::sections(document, report, shown),
     }
     let digits = evaluation.settings.digits;
     let curves = task.curves.iter().map(|curve| &**curve);
@@ -75,7 +81,7 @@ pub(super) fn together_of(document: &mut Document, report: &EvaluationReport<'_>
 /// How the outputs vary together, and the trials that were left out.
 fn together(document: &mut Document, task: &Task, row: &RowEvaluation) {
     match correlations::found(task, row) {
-        Some(correlations::Coefficients::Matrix { sheet, .. }) => {
+        Some(correlations::Coefficients::Matrix(sheet)) => {
             document.section("Correlation of the outputs");
             document.table(sheet);
         }

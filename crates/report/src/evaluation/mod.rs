@@ -12,7 +12,6 @@ mod workbook;
 pub use parts::{OutputParts, PageChoice, PageParts, input_picture, page_parts};
 pub use results::ResultStatement;
 pub(crate) use results::Taken;
-pub use terminal::histograms;
 pub use workbook::{MOST_RESULTS, xlsx};
 
 use super::document as look;
@@ -43,18 +42,25 @@ impl Shown<'_> {
     }
 }
 
+/// The evaluation as a page for a terminal of at most 100 columns, or as many as it has
+/// ([`crate::within_width`]). Warnings are not part of it.
+pub fn table(report: &EvaluationReport<'_>, shown: &Shown<'_>) -> String {
+    let shown = Shown { model: "", ..*shown };
+    look::text(&document::of(report, &shown, true))
+}
+
 /// The evaluation in GitHub Flavored Markdown.
 pub fn markdown(report: &EvaluationReport<'_>, shown: &Shown<'_>) -> String {
-    look::markdown(&document::of(report, &Shown { model: "", ..*shown }))
+    look::markdown(&document::of(report, &Shown { model: "", ..*shown }, false))
 }
 
 /// The evaluation as a LaTeX file for `article` with `booktabs` and `siunitx`.
 pub fn latex(report: &EvaluationReport<'_>, shown: &Shown<'_>) -> String {
-    look::latex(&document::of(report, &Shown { model: "", ..*shown }))
+    look::latex(&document::of(report, &Shown { model: "", ..*shown }, false))
 }
 
 /// The evaluation as one HTML file with figures that needs nothing else: it loads nothing and runs
 /// nothing, reads in light and dark and prints on A4.
 pub fn html(report: &EvaluationReport<'_>, shown: &Shown<'_>) -> String {
-    look::html(&document::of(report, shown))
+    look::html(&document::of(report, shown, false))
 }

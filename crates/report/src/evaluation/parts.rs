@@ -65,7 +65,7 @@ pub fn page_parts(
             let quantity = &report.task.model.outputs.get(output)?.quantity;
             return Some(OutputParts { title: title_text(quantity), ..OutputParts::default() });
         }
-        let section = results::section_of(report, shown, (choice.row, output))?;
+        let section = results::section_of(report, shown, (choice.row, output), false)?;
         Some(OutputParts {
             title: section.title,
             verdict: fragment(&section.verdict, size),
@@ -76,7 +76,7 @@ pub fn page_parts(
         })
     };
     let mut together = Document::default();
-    document::together_of(&mut together, report);
+    document::together_of(&mut together, report, shown);
     PageParts {
         outputs: (0..report.task.model.outputs.len()).filter_map(part).collect(),
         rows: swept.iter().map(|row| conditions_text(conditions, &row.conditions)).collect(),

@@ -1,6 +1,6 @@
 //! Everything about one output.
 
-use super::{Shown, figures};
+use super::{Shown, figures, terminal};
 use crate::EvaluationReport;
 use crate::document::{Block, Document, sentence};
 use crate::number::{justified, place_of_ends, position, to, with_uncertainty};
@@ -39,7 +39,7 @@ pub(super) fn section(
     shown: &Shown<'_>,
     (output, folded): (usize, bool),
 ) {
-    let Some(section) = section_of(report, shown, (0, output)) else { return };
+    let Some(section) = section_of(report, shown, (0, output), document.terminal) else { return };
     document.section(section.title);
     document.blocks.extend(section.verdict.blocks);
     let below = [section.budget, section.conclusions, section.comparison, section.distribution];
@@ -50,11 +50,13 @@ pub(super) fn section(
     }
 }
 
-/// The parts of the section of an output in a row; `None` where there is no such output or row.
+/// The parts of the section of an output in a row, with its figures in characters or drawn; `None`
+/// where there is no such output or row.
 pub(super) fn section_of(
     report: &EvaluationReport<'_>,
     shown: &Shown<'_>,
     (row, output): (usize, usize),
+    in_characters: bool,
 ) -> Option<OutputSection> {
     let EvaluationReport { task, evaluation, .. } = *report;
     let found = evaluation.rows.get(row)?.outputs.get(output)?;
@@ -63,6 +65,8 @@ pub(super) fn section_of(
     let digits = evaluation.settings.digits;
     let mut section =
         OutputSection { title: table::title_text(quantity), ..OutputSection::default() };
+    section.budget.terminal = in_characters;
+    section.distribution.terminal = in_characters;
     let mut said = verdict(&evaluation.settings, output_of, found);
     said.extend(comparison::differences(report, output_of, found, shown.language));
     section.verdict.blocks.push(Block::Verdict(said));
@@ -74,7 +78,7 @@ pub(super) fn section_of(
             if let Some(said) = budget::subtotals(task, gum) {
                 section.budget.sentence(&said);
             }
-            section.budget.figure(figures::shares(task, gum));
+            section.budget.picture(|| figures::shares(task, gum), || None);
             section.conclusions.table(conclusions(&evaluation.settings, quantity, found, digits));
         }
         None => section.budget.text(table::NO_BUDGET),
@@ -98,11 +102,13 @@ pub(super) fn section_of(
         }
     }
     let histogram = shown.histogram(row, output);
-    section.distribution.figure(histogram.and_then(|counts| {
-        figures::distribution(quantity, found, counts, evaluation.coverage_probability)
-    }));
+    let probability = evaluation.coverage_probability;
+    section.distribution.picture(
+        || figures::distribution(quantity, found, histogram?, probability),
+        || Some(terminal::histogram(quantity, found, histogram?)),
+    );
     let stages = shown.convergence.get(output).map_or(&[][..], Vec::as_slice);
-    section.distribution.figure(figures::convergence(quantity, stages));
+    section.distribution.picture(|| figures::convergence(quantity, stages), || None);
     Some(section)
 }
 

@@ -1,18 +1,19 @@
 //! A sweep over conditions: a table and a figure for each output.
 
-use super::figures;
-use crate::EvaluationReport;
+use super::{Shown, figures, terminal};
 use crate::document::{Block, Document};
 use crate::table;
-use crate::table::sweep;
+use crate::table::{conditions_text, sweep};
+use crate::{EvaluationReport, wrapped};
 
-/// Rows of a table on a page, at most.
+/// Rows of a table on a page that is no page for a terminal, at most.
 const MOST_ROWS: usize = 2000;
 
 /// The sections of all outputs.
-pub(super) fn sections(document: &mut Document, report: &EvaluationReport<'_>) {
+pub(super) fn sections(document: &mut Document, report: &EvaluationReport<'_>, shown: &Shown<'_>) {
     let EvaluationReport { task, evaluation, .. } = *report;
-    let rows = evaluation.rows.get(..MOST_ROWS).unwrap_or(&evaluation.rows);
+    let first = evaluation.rows.get(..MOST_ROWS).filter(|_| !document.terminal);
+    let rows = first.unwrap_or(&evaluation.rows);
     for (output, declared) in task.model.outputs.iter().enumerate() {
         document.section(table::title_text(&declared.quantity));
         document.table(sweep::sheet(task, rows, output, evaluation.settings.digits));
@@ -26,10 +27,17 @@ pub(super) fn sections(document: &mut Document, report: &EvaluationReport<'_>) {
         for said in taken.into_iter().chain(sweep::conformity(task, &evaluation.rows, output)) {
             document.text(said);
         }
-        document.figure(figures::sweep(task, rows, (output, settings)));
+        document.picture(|| figures::sweep(task, rows, (output, settings)), || None);
         if let Some(sheet) = sweep::shares(task, rows, output) {
             document.text("Shares of the variance in %:");
             document.table(sheet);
+        }
+        for (place, row) in rows.iter().enumerate().filter(|_| document.terminal) {
+            let drawn = shown.histogram(place, output).zip(row.outputs.get(output));
+            let Some((counts, found)) = drawn else { continue };
+            let at = conditions_text(&task.model.conditions, &row.conditions);
+            let histogram = terminal::histogram(&declared.quantity, found, counts);
+            document.blocks.push(Block::Characters(wrapped(&format!("at {at}")) + &histogram));
         }
     }
     let apart = sweep::apart(task, rows);

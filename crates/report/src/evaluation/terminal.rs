@@ -1,10 +1,9 @@
 //! The distribution of an output in a terminal, without colours: it reads on dark and on light.
 
-use super::Shown;
 use crate::number::{position, to};
 use crate::plot::{Axis, CharacterGrid};
-use crate::table::{conditions_text, grouped, text_width, title_text};
-use crate::{EvaluationReport, wrapped};
+use crate::table::{grouped, text_width, title_text};
+use crate::wrapped;
 use gumption_engine::model::Quantity;
 use gumption_engine::propagate::OutputEvaluation;
 use gumption_engine::propagate::gum::Gum;
@@ -13,26 +12,6 @@ use gumption_engine::propagate::monte_carlo::Histogram;
 /// Columns left of the bars, and rows of the bars.
 const LEFT: usize = 16;
 const HEIGHT: usize = 10;
-
-/// The histograms of all rows, each below an empty line; nothing where none is shown.
-pub fn histograms(report: &EvaluationReport<'_>, shown: &Shown<'_>) -> String {
-    let EvaluationReport { task, evaluation, .. } = *report;
-    let mut page = String::new();
-    for (row, (found, histograms)) in evaluation.rows.iter().zip(shown.histograms).enumerate() {
-        if evaluation.rows.len() > 1 && !histograms.is_empty() {
-            let at = conditions_text(&task.model.conditions, &found.conditions);
-            page += &format!("\n{}", wrapped(&format!("at {at}")));
-        }
-        for (place, output) in task.model.outputs.iter().enumerate() {
-            let counts = shown.histogram(row, place);
-            if let Some((counts, found)) = counts.zip(found.outputs.get(place)) {
-                let counts = narrowed(counts);
-                page += &format!("\n{}", histogram(&output.quantity, found, &counts));
-            }
-        }
-    }
-    page
-}
 
 /// The same with as many bins in one as the page asks for.
 fn narrowed(counts: &Histogram) -> Histogram {
@@ -47,7 +26,8 @@ fn narrowed(counts: &Histogram) -> Histogram {
 
 /// The histogram of an output as lines of at most 100 columns: bars, an axis with its marks, and the
 /// coverage intervals of both methods below.
-fn histogram(output: &Quantity, found: &OutputEvaluation, counts: &Histogram) -> String {
+pub(super) fn histogram(output: &Quantity, found: &OutputEvaluation, counts: &Histogram) -> String {
+    let counts = &narrowed(counts);
     let about = Quantity { about: String::new(), ..output.clone() };
     let title = format!("{}: {} trials", title_text(&about), grouped(counts.trials()));
     let width = counts.counts.len();

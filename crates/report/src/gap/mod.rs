@@ -13,7 +13,6 @@ mod page;
 mod residuals;
 mod sheets;
 mod strength;
-mod table;
 mod terminal;
 mod words;
 
@@ -22,7 +21,7 @@ pub use csv::csv;
 pub use html::html;
 pub use json::json;
 pub use markdown::markdown;
-pub use table::table;
+pub use page::table;
 pub use words::note;
 
 #[cfg(test)]

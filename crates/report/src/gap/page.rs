@@ -1,18 +1,29 @@
-//! The page of a diagnosis as a document, which HTML and Markdown draw.
+//! The page of a diagnosis as a document, which all looks draw.
 
-use super::{composed, departure, digits, html, sheets, strength, words};
-use crate::Provenance;
-use crate::document::{Block, Document};
-use crate::plain;
+use super::{composed, departure, digits, html, sheets, strength, terminal, words};
+use crate::document::{self, Block, Document};
 use crate::sheet::Sheet;
 use crate::statement;
+use crate::table::width;
+use crate::{Grid, Provenance, plain};
 use gumption_gap::Diagnosis;
 
-/// All that the page says, with figures.
-pub(super) fn document(diagnosis: &Diagnosis, provenance: &Provenance) -> Document {
+/// The diagnosis as a page for a terminal of at most 100 columns, or as many as it has
+/// ([`crate::within_width`]).
+pub fn table(diagnosis: &Diagnosis, provenance: &Provenance) -> String {
+    document::text(&document(diagnosis, provenance, true))
+}
+
+/// All that the page says, with figures; where it `is_terminal` they are in characters.
+pub(super) fn document(
+    diagnosis: &Diagnosis,
+    provenance: &Provenance,
+    is_terminal: bool,
+) -> Document {
     let mut page = Document {
         title: words::title(diagnosis),
         subtitle: vec![words::settings(diagnosis)],
+        terminal: is_terminal,
         ..Document::default()
     };
     let mut verdict = vec![words::verdict(diagnosis)];
@@ -26,7 +37,8 @@ pub(super) fn document(diagnosis: &Diagnosis, provenance: &Provenance) -> Docume
     statement::section(&mut page, words::SIM, words::sim(diagnosis));
     page.section("What was measured, and what the sim says");
     for output in 0..diagnosis.outputs.len() {
-        page.figure(html::overlay(diagnosis, output));
+        let in_characters = || terminal::overlay(diagnosis, output);
+        page.picture(|| html::overlay(diagnosis, output), in_characters);
     }
     effect(&mut page, diagnosis);
     page.section("Is there a gap?");
@@ -40,7 +52,7 @@ pub(super) fn document(diagnosis: &Diagnosis, provenance: &Provenance) -> Docume
         }
         None => page.text(words::no_region(diagnosis)),
     }
-    page.figure(html::where_map(diagnosis));
+    page.picture(|| html::where_map(diagnosis), || None);
     if let Some(sheet) = sheets::present(diagnosis) {
         page.section("Which effects are there?");
         page.table(sheet);
@@ -56,8 +68,8 @@ pub(super) fn document(diagnosis: &Diagnosis, provenance: &Provenance) -> Docume
     if let Some(said) = sheets::left_out(diagnosis) {
         page.text(said);
     }
-    page.figure(Some(html::bars(diagnosis)));
-    page.figure(html::intervals(diagnosis));
+    page.picture(|| Some(html::bars(diagnosis)), || None);
+    page.picture(|| html::intervals(diagnosis), || None);
     let departure = departure::sentences(diagnosis);
     if !departure.is_empty() {
         page.section("What the departure looks like");
@@ -74,10 +86,11 @@ pub(super) fn document(diagnosis: &Diagnosis, provenance: &Provenance) -> Docume
     page.table(sheets::shrinkage(diagnosis));
     words::shrinkage(diagnosis).into_iter().for_each(|said| page.text(said));
     words::noise(diagnosis).into_iter().for_each(|said| page.text(said));
-    page.figure(html::shares(diagnosis));
-    page.figure(html::shrinkage(diagnosis));
+    page.picture(|| html::shares(diagnosis), || None);
+    page.picture(|| html::shrinkage(diagnosis), || None);
     for output in 0..diagnosis.outputs.len() {
-        page.figure(html::residuals(diagnosis, output));
+        let in_characters = || terminal::residuals(diagnosis, output);
+        page.picture(|| html::residuals(diagnosis, output), in_characters);
     }
     page.section("What to measure next");
     words::next(diagnosis).into_iter().for_each(|said| page.text(said));
@@ -90,9 +103,11 @@ pub(super) fn document(diagnosis: &Diagnosis, provenance: &Provenance) -> Docume
         page.section("Notes");
         page.blocks.push(Block::List(notes));
     }
-    page.section("To repeat this");
-    page.table(repeat(diagnosis, provenance));
-    page.text("The same program, files and seed give the same figures on any number of threads.");
+    let settings = [
+        ("seed", diagnosis.seed.to_string()),
+        ("coverage probability", digits::percent(diagnosis.probability)),
+    ];
+    repeat(&mut page, &settings, provenance);
     page
 }
 
@@ -124,24 +139,26 @@ fn predictions(page: &mut Document, diagnosis: &Diagnosis) {
     page.section("Corrected prediction");
     for output in 0..diagnosis.outputs.len() {
         page.text(format!("{}:", words::axis(&diagnosis.outputs[output])));
-        page.table(sheets::prediction(diagnosis, rows, output, false));
-        page.figure(html::predictions(diagnosis, rows, output));
+        let sheet = |joined: bool| sheets::prediction(diagnosis, rows, output, joined);
+        let too_wide = page.terminal && Grid::of(&sheet(false)).natural_width() > width();
+        page.table(sheet(too_wide));
+        page.picture(|| html::predictions(diagnosis, rows, output), || None);
     }
 }
 
-/// Everything that is needed to get the same answer again.
-fn repeat(diagnosis: &Diagnosis, provenance: &Provenance) -> Sheet {
-    let mut lines = vec![
-        ["program".to_owned(), format!("gumption {}", env!("CARGO_PKG_VERSION"))],
-        ["seed".to_owned(), diagnosis.seed.to_string()],
-        ["coverage probability".to_owned(), digits::percent(diagnosis.probability)],
-        ["case file, SHA-256".to_owned(), provenance.model_sha256.clone()],
-    ];
+/// Everything that is needed to get the same answer again; `settings` are those of the command, with
+/// their names.
+pub(super) fn repeat(page: &mut Document, settings: &[(&str, String)], provenance: &Provenance) {
+    let mut lines = vec![("program".to_owned(), format!("gumption {}", env!("CARGO_PKG_VERSION")))];
+    lines.extend(settings.iter().map(|(name, value)| ((*name).to_owned(), value.clone())));
+    lines.push(("case file, SHA-256".to_owned(), provenance.model_sha256.clone()));
     let files = provenance.files.iter();
-    lines.extend(files.map(|(name, digest)| [format!("{}, SHA-256", plain(name)), digest.clone()]));
+    lines.extend(files.map(|(name, digest)| (format!("{}, SHA-256", plain(name)), digest.clone())));
+    let (names, values): (Vec<_>, Vec<_>) = lines.into_iter().unzip();
     let mut sheet = Sheet::default();
-    for (place, header) in ["what", "value"].into_iter().enumerate() {
-        sheet.text(header, lines.iter().map(|line| line[place].clone()));
-    }
-    sheet
+    sheet.text("what", names);
+    sheet.text("value", values);
+    page.section("To repeat this");
+    page.table(sheet);
+    page.text("The same program, files and seed give the same figures on any number of threads.");
 }

@@ -31,28 +31,23 @@ fn columns() -> usize {
     text_width().saturating_sub(BESIDE)
 }
 
-/// A plot for each output: residuals over their standard uncertainties before and after against the
-/// condition with most levels.
-pub(super) fn plots(diagnosis: &Diagnosis) -> Vec<String> {
+/// The residuals of an output over their standard uncertainties before and after against the condition
+/// with most levels.
+pub(super) fn residuals(diagnosis: &Diagnosis, output: usize) -> Option<String> {
     let over = residuals::finest(diagnosis);
     let along = over.in_sentence(diagnosis);
-    let outputs = diagnosis.outputs.iter().enumerate();
-    outputs
-        .filter_map(|(output, named)| {
-            let residuals = residuals::of(diagnosis, output, over);
-            if residuals.is_empty() {
-                return None;
-            }
-            let name = crate::plain(&named.name);
-            let scale = Scale::over(&residuals);
-            let compressed = if scale.linear { "" } else { "; compressed far from zero" };
-            let title = format!(
-                "{name}: residual / u against {along}; {BEFORE} before, \
-                 {AFTER} after, {BOTH} both, ┄ ±{BAND}{compressed}"
-            );
-            Some(wrapped(&title) + &plot(&residuals, scale))
-        })
-        .collect()
+    let residuals = residuals::of(diagnosis, output, over);
+    if residuals.is_empty() {
+        return None;
+    }
+    let name = crate::plain(&diagnosis.outputs.get(output)?.name);
+    let scale = Scale::over(&residuals);
+    let compressed = if scale.linear { "" } else { "; compressed far from zero" };
+    let title = format!(
+        "{name}: residual / u against {along}; {BEFORE} before, {AFTER} after, {BOTH} both, \
+         ┄ ±{BAND}{compressed}"
+    );
+    Some(wrapped(&title) + &plot(&residuals, scale))
 }
 
 /// Characters of what was measured, of the sim and of the corrected sim.
@@ -60,32 +55,26 @@ const MEASURED: char = 'o';
 const SIM: char = '-';
 const CORRECTED: char = '+';
 
-/// A plot for each output: measured values, the sim and the corrected sim against the condition with
-/// most levels.
-pub(super) fn overlays(diagnosis: &Diagnosis) -> Vec<String> {
+/// What was measured of an output, the sim and the corrected sim against the condition with most levels.
+pub(super) fn overlay(diagnosis: &Diagnosis, output: usize) -> Option<String> {
     let over = residuals::finest(diagnosis);
-    let along = over.in_sentence(diagnosis);
-    let outputs = diagnosis.outputs.iter().enumerate();
-    outputs
-        .filter_map(|(output, named)| {
-            let points = residuals::overlaid(diagnosis, output, over);
-            let values = points.iter().flat_map(|(_, values)| *values);
-            let [low, high] = values
-                .fold([f64::INFINITY, f64::NEG_INFINITY], |[a, b], v| [a.min(v), b.max(v)]);
-            if high.partial_cmp(&low) != Some(std::cmp::Ordering::Greater) {
-                return None;
-            }
-            let title = format!(
-                "{} against {along}; {MEASURED} measured, {SIM} sim, {CORRECTED} corrected sim, {BOTH} \
-                 several in one place",
-                words::axis(named)
-            );
-            Some(wrapped(&title) + &overlay(&points, [low, high]))
-        })
-        .collect()
+    let points = residuals::overlaid(diagnosis, output, over);
+    let values = points.iter().flat_map(|(_, values)| *values);
+    let [low, high] =
+        values.fold([f64::INFINITY, f64::NEG_INFINITY], |[a, b], v| [a.min(v), b.max(v)]);
+    if high.partial_cmp(&low) != Some(std::cmp::Ordering::Greater) {
+        return None;
+    }
+    let title = format!(
+        "{} against {}; {MEASURED} measured, {SIM} sim, {CORRECTED} corrected sim, {BOTH} several in \
+         one place",
+        words::axis(diagnosis.outputs.get(output)?),
+        over.in_sentence(diagnosis)
+    );
+    Some(wrapped(&title) + &overlaid(&points, [low, high]))
 }
 
-fn overlay(points: &[(f64, [f64; 3])], [low, high]: [f64; 2]) -> String {
+fn overlaid(points: &[(f64, [f64; 3])], [low, high]: [f64; 2]) -> String {
     let axis = Axis::over(points.iter().map(|(x, _)| *x));
     let mut grid = CharacterGrid::new(LEFT + columns(), HEIGHT + 2);
     let margin = 0.02 * (high - low);

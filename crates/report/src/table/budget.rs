@@ -1,8 +1,7 @@
 //! The uncertainty budget of one output, and what follows from it.
 
 use super::columns::{self, BudgetColumn};
-use super::grid::Grid;
-use super::{coverage_text, in_unit, text, width};
+use super::{coverage_text, text};
 use crate::number::{coefficient, exact, position, rounded, significant, with_uncertainty};
 use crate::sheet::{ColumnKind, Figure, Sheet};
 use crate::subtotals::Subtotals;
@@ -15,24 +14,18 @@ use gumption_units::Unit;
 /// Significant digits of sensitivity coefficients.
 const SENSITIVITY_DIGITS: u32 = 4;
 
-/// Units and distributions up to this width stay in one line.
-const WORD: usize = 12;
-
 /// Correlation coefficients with a line each, at most; the shares of more are added up.
 const MOST_COEFFICIENTS: usize = 500;
 
 /// Degrees of freedom above this are written as a power of ten.
 const MANY: f64 = 1e7;
 
-/// The header of the column of units.
-const UNIT: &str = "unit";
-
 /// The usual columns: their headers as words, and broken for pages that would become too wide.
 const HEADERS: [[&str; 2]; 9] = [
     ["quantity"; 2],
     ["estimate"; 2],
     ["standard\nuncertainty", "standard\nuncer-\ntainty"],
-    [UNIT; 2],
+    ["unit"; 2],
     ["distribution", "distri-\nbution"],
     ["dof"; 2],
     ["sensitivity\ncoefficient", "sensi-\ntivity"],
@@ -54,60 +47,29 @@ pub(crate) struct Budget<'a> {
 pub(super) struct Field {
     /// The header as words, and broken.
     pub(super) headers: [&'static str; 2],
-    pub(super) layout: CellLayout,
+    pub(super) kind: ColumnKind,
     /// The cells: inputs, correlation coefficients, the output.
     pub(super) cells: Vec<String>,
 }
 
-/// How cells are set.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) enum CellLayout {
-    /// Texts that wrap if the page is too narrow.
-    Text,
-    /// Texts that wrap only above a width.
-    TextFrom(usize),
-    /// Numbers, which never wrap.
-    Numbers,
-}
-
 impl Budget<'_> {
-    /// The budget with the combined standard uncertainty as its last line, subtotals, degrees of
-    /// freedom, coverage factor and expanded uncertainty.
-    pub(super) fn table(&self, settings: &Settings, columns: &[BudgetColumn]) -> String {
-        let Self { task, output, gum, digits } = *self;
-        let mut page = self.grids(columns);
-        page += &text::wrapped(&legend(output, columns));
-        page += &text::wrapped(&subtotals(task, gum).unwrap_or_default());
-        page.push('\n');
-        page + &conclusion(settings, output, gum, digits)
-    }
-
-    /// One table, or two where the further columns leave no room for it.
-    fn grids(&self, columns: &[BudgetColumn]) -> String {
-        let usual = self.usual_fields();
-        let further = columns::fields(self, columns);
-        let fits = |grid: &Grid| grid.least_width() <= width();
-        let whole = grid(&arranged(&usual, &further));
-        if further.is_empty() || fits(&whole) {
-            return whole.render(width());
-        }
-        let names = usual.first().cloned();
-        let apart: Vec<Field> =
-            names.into_iter().chain(further.into_iter().map(|(_, field)| field)).collect();
-        grid(&usual).render(width()) + "\n" + &grid(&apart).render(width())
-    }
-
-    /// The same table without a look, with the further columns in their places.
+    /// The budget with the combined standard uncertainty as its last line and the further columns in
+    /// their places.
     pub(crate) fn sheet(&self, columns: &[BudgetColumn]) -> Sheet {
-        let fields = arranged(&self.usual_fields(), &columns::fields(self, columns));
+        let further = columns::fields(self, columns);
         let mut sheet = Sheet { footer: true, ..Sheet::default() };
-        for Field { headers: [header, _], layout, cells } in fields {
-            let kind = match layout {
-                _ if header == UNIT => ColumnKind::Units,
-                CellLayout::Numbers => ColumnKind::Numbers,
-                CellLayout::Text | CellLayout::TextFrom(_) => ColumnKind::Text,
-            };
-            sheet.push(header, cells, kind);
+        let mut push = |field: &Field, aside: bool| {
+            let [header, narrow] = field.headers;
+            sheet.push(header, field.cells.iter().cloned(), field.kind);
+            sheet.narrow(narrow);
+            if aside {
+                sheet.aside();
+            }
+        };
+        for (position, field) in self.usual_fields().iter().enumerate() {
+            push(field, false);
+            let behind = further.iter().filter(|(behind, _)| *behind == position);
+            behind.for_each(|(_, field)| push(field, true));
         }
         sheet
     }
@@ -117,43 +79,15 @@ impl Budget<'_> {
         let lines = lines(task, output, gum, digits);
         let field = |(position, headers): (usize, [&'static str; 2])| Field {
             headers,
-            layout: match position {
-                0 => CellLayout::Text,
-                3 | 4 => CellLayout::TextFrom(WORD),
-                _ => CellLayout::Numbers,
+            kind: match position {
+                0 | 4 => ColumnKind::Text,
+                3 => ColumnKind::Units,
+                _ => ColumnKind::Numbers,
             },
             cells: lines.iter().map(|line| line[position].clone()).collect(),
         };
         HEADERS.into_iter().enumerate().map(field).collect()
     }
-}
-
-/// The further fields among the usual ones, each behind the field of its position.
-fn arranged(usual: &[Field], further: &[(usize, Field)]) -> Vec<Field> {
-    let mut fields = Vec::new();
-    for (position, field) in usual.iter().enumerate() {
-        fields.push(field.clone());
-        let behind = further.iter().filter(|(behind, _)| *behind == position);
-        fields.extend(behind.map(|(_, field)| field.clone()));
-    }
-    fields
-}
-
-/// The table with headers as words if that fits, else with broken ones.
-fn grid(fields: &[Field]) -> Grid {
-    let [words, broken] = [0, 1].map(|form| {
-        let mut grid = Grid::with_footer();
-        for Field { headers, layout, cells } in fields {
-            let (header, cells) = (headers[form], cells.iter().cloned());
-            match *layout {
-                CellLayout::Text => grid.text(header, cells),
-                CellLayout::TextFrom(width) => grid.text_from(header, width, cells),
-                CellLayout::Numbers => grid.numbers(header, cells),
-            }
-        }
-        grid
-    });
-    if words.natural_width() <= width() { words } else { broken }
 }
 
 /// The cells of a line.
@@ -379,18 +313,6 @@ pub(crate) fn conclusions<'a>(
         Conclusion { remark, ..conclusion("coverage factor", factor) },
         Conclusion { unit, ..conclusion("expanded uncertainty", expanded) },
     ]
-}
-
-fn conclusion(settings: &Settings, output: &Quantity, gum: &Gum, digits: u32) -> String {
-    let entries = conclusions(settings, output, gum, digits).map(|found| {
-        let text = match found.unit {
-            Some(unit) => in_unit(&found.figure.text, unit),
-            None => format!("{} {}", found.figure.text, found.remark),
-        };
-        (found.name, text)
-    });
-    let entries: Vec<_> = entries.iter().map(|(name, text)| (*name, text.as_str())).collect();
-    text::definitions(&entries)
 }
 
 /// Effective degrees of freedom above this are not told apart: they are an estimate, and k is that of

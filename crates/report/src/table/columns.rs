@@ -1,8 +1,9 @@
 //! Columns of the budget that are shown on request.
 
-use super::budget::{Budget, CellLayout, Field, InputRow, coefficient_lines, input_rows};
+use super::budget::{Budget, Field, InputRow, coefficient_lines, input_rows};
 use super::text;
 use crate::number::{MISSING, exact, significant};
+use crate::sheet::ColumnKind;
 use gumption_engine::decimal::to_digits;
 use gumption_engine::model::Quantity;
 use gumption_engine::propagate::InputFigures;
@@ -16,10 +17,6 @@ const DIVISOR_DIGITS: u32 = 4;
 /// Significant digits of stated widths, which come back from u(x_i) and its divisor. The one of
 /// readings is computed and has those of the page.
 const WIDTH_DIGITS: u32 = 6;
-
-/// Sources of uncertainty up to this width stay in one line, groups up to the other.
-const ABOUT_WIDTH: usize = 16;
-const GROUP_WIDTH: usize = 12;
 
 /// A column of the budget that is shown on request.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -76,7 +73,7 @@ pub(super) fn fields(budget: &Budget<'_>, wanted: &[BudgetColumn]) -> Vec<(usize
 
 fn of(budget: &Budget<'_>, column: BudgetColumn) -> Vec<(usize, Field)> {
     let Budget { gum, digits, output, .. } = *budget;
-    let numbers = |headers, cells| Field { headers, layout: CellLayout::Numbers, cells };
+    let numbers = |headers, cells| Field { headers, kind: ColumnKind::Numbers, cells };
     let blank = String::new;
     match column {
         BudgetColumn::Width => {
@@ -118,22 +115,21 @@ fn of(budget: &Budget<'_>, column: BudgetColumn) -> Vec<(usize, Field)> {
             let letter =
                 |_: &BudgetLine, variable: &Variable| variable.evaluation.letter().to_owned();
             let cells = cells(budget, letter, blank());
-            vec![(DISTRIBUTION, Field { headers: ["type"; 2], layout: CellLayout::Text, cells })]
+            vec![(DISTRIBUTION, Field { headers: ["type"; 2], kind: ColumnKind::Text, cells })]
         }
         BudgetColumn::Group => {
             let group = |_: &BudgetLine, variable: &Variable| {
                 text::plain(variable.group.as_deref().unwrap_or_default())
             };
-            let (cells, layout) =
-                (cells(budget, group, blank()), CellLayout::TextFrom(GROUP_WIDTH));
-            vec![(SHARE, Field { headers: ["group"; 2], layout, cells })]
+            let cells = cells(budget, group, blank());
+            vec![(SHARE, Field { headers: ["group"; 2], kind: ColumnKind::Text, cells })]
         }
         BudgetColumn::About => {
             let about = |_: &BudgetLine, variable: &Variable| text::plain(&variable.about);
             let of_sum = |quantity: &Quantity, _: &InputFigures| text::plain(&quantity.about);
             let cells = all_cells(budget, about, of_sum, blank());
-            let layout = CellLayout::TextFrom(ABOUT_WIDTH);
-            vec![(SHARE, Field { headers: ["source of\nuncertainty"; 2], layout, cells })]
+            let headers = ["source of\nuncertainty"; 2];
+            vec![(SHARE, Field { headers, kind: ColumnKind::Text, cells })]
         }
     }
 }

@@ -1,7 +1,6 @@
 //! The two methods side by side, and the verdict of JCGM 101, clause 8.
 
-use super::grid::Grid;
-use super::{coverage_text, in_unit, text, width};
+use super::{coverage_text, in_unit, text};
 use crate::EvaluationReport;
 use crate::document::sentence;
 use crate::number::{
@@ -14,7 +13,7 @@ use gumption_engine::propagate::gum::{Dof, Gum};
 use gumption_engine::propagate::monte_carlo::{Adaptive, FIRST_STAGE, MonteCarlo};
 use gumption_engine::propagate::validate::Validation;
 use gumption_engine::propagate::{Accuracy, Conformity, Noiseless, OutputEvaluation};
-use gumption_engine::task::{Coverage, Settings, StoppingRule};
+use gumption_engine::task::{Coverage, StoppingRule};
 
 /// What is said of a shortest interval that is not exact.
 pub(crate) const NEARLY_SHORTEST: &str =
@@ -26,55 +25,6 @@ pub(crate) const NOT_UNIQUE: &str = "the shortest interval is not unique: others
 
 /// Position of the last digit of skewness and kurtosis.
 const SHAPE_PLACE: i32 = -2;
-
-/// The figures of both methods with the numerical standard errors of the Monte Carlo ones, and the
-/// verdict; nothing without trials and without a GUM interval.
-pub(super) fn table(
-    output: &Quantity,
-    figures: &OutputEvaluation,
-    settings: &Settings,
-) -> Option<String> {
-    let digits = settings.digits;
-    let gum = figures.gum.as_ref();
-    let lines = Lines::of(figures, digits);
-    let said = without_noise(output, figures);
-    let Some(monte_carlo) = &figures.monte_carlo else {
-        let mut page = lines.map_or_else(String::new, |lines| lines.grid().render(width()));
-        page += &gum
-            .and_then(|gum| interval_text(output, gum, digits))
-            .into_iter()
-            .chain(said)
-            .chain(
-                figures
-                    .conformity
-                    .iter()
-                    .flat_map(|found| conformity(output, found, (None, settings.coverage))),
-            )
-            .map(|said| text::wrapped(&said))
-            .collect::<String>();
-        return (!page.is_empty()).then_some(page);
-    };
-    let mut page = lines?.grid().render(width());
-    if let Some(said) = said {
-        page += &text::wrapped(&said);
-    }
-    if !monte_carlo.shortest_exact {
-        page += &text::wrapped(NEARLY_SHORTEST);
-    }
-    if !monte_carlo.shortest_unique {
-        page += &text::wrapped(NOT_UNIQUE);
-    }
-    if let Some(end) = &monte_carlo.adaptive {
-        page += &text::wrapped(&stability(output, end, monte_carlo.trials));
-    }
-    page.push('\n');
-    page += &text::wrapped(&verdict(output, figures, monte_carlo));
-    if let Some(found) = &figures.conformity {
-        let said = conformity(output, found, (Some(monte_carlo.trials), settings.coverage));
-        page += &said.map(|said| text::wrapped(&said)).concat();
-    }
-    Some(page)
-}
 
 /// What is said of figures without noise: how far they may be off, or why there are none; nothing where
 /// none were asked for.
@@ -370,8 +320,7 @@ pub(crate) fn stability(output: &Quantity, end: &Adaptive, trials: u64) -> Strin
 
 /// A figure by all methods.
 struct MethodsLine {
-    /// Its name, and its name where it does not stand below another.
-    names: [&'static str; 2],
+    name: &'static str,
     gum: String,
     monte_carlo: String,
     error: String,
@@ -397,10 +346,6 @@ impl<'a> Lines<'a> {
         })
     }
 
-    fn names(&self, which: usize) -> impl Iterator<Item = String> {
-        self.lines.iter().map(move |line| line.names[which].to_owned())
-    }
-
     /// The columns of numbers with their headings.
     fn columns(&self) -> Vec<(&'static str, Vec<String>)> {
         let of = |text: fn(&MethodsLine) -> &String| {
@@ -421,50 +366,13 @@ impl<'a> Lines<'a> {
         }
         columns
     }
-
-    fn grid(&self) -> Grid {
-        let mut grid = Grid::default();
-        let columns = self.columns();
-        let longest = |heading: &str, texts: &[String]| {
-            let lines = heading.lines().chain(texts.iter().map(String::as_str));
-            lines.map(|line| line.chars().count()).max().unwrap_or(0) + 2
-        };
-        let numbers: usize = columns.iter().map(|(of, texts)| longest(of, texts)).sum();
-        // a name that wrapped would leave the "to" below it without its "from"
-        let room = width().saturating_sub(numbers);
-        let names: Vec<String> = self.names(0).collect();
-        let is_narrow = names.iter().any(|name| name.chars().count() > room);
-        let shortened = |name: String| match name.get(..INTERVAL.len()) {
-            Some(begin) if is_narrow && (begin == INTERVAL || begin.trim().is_empty()) => {
-                name[INTERVAL.len()..].to_owned()
-            }
-            _ => name,
-        };
-        grid.text("", names.into_iter().map(shortened));
-        for (heading, texts) in columns {
-            grid.numbers(heading, texts);
-        }
-        grid
-    }
 }
-
-/// What the names of the ends of intervals begin with, or are indented by.
-const INTERVAL: &str = "coverage interval, ";
-
-const SYMMETRIC_LOW: [&str; 2] =
-    ["coverage interval, symmetric: from", "coverage interval, symmetric: from"];
-const SYMMETRIC_HIGH: [&str; 2] =
-    ["                              to", "coverage interval, symmetric: to"];
-const SHORTEST_LOW: [&str; 2] =
-    ["coverage interval, shortest:  from", "coverage interval, shortest: from"];
-const SHORTEST_HIGH: [&str; 2] =
-    ["                              to", "coverage interval, shortest: to"];
 
 /// The figures of all methods side by side; `None` where there is only the law of propagation.
 pub(crate) fn sheet(figures: &OutputEvaluation, digits: u32) -> Option<Sheet> {
     let lines = Lines::of(figures, digits)?;
     let mut sheet = Sheet::default();
-    sheet.text("figure", lines.names(1));
+    sheet.text("figure", lines.lines.iter().map(|line| line.name.to_owned()));
     for (heading, texts) in lines.columns() {
         sheet.numbers(heading, texts);
     }
@@ -511,23 +419,21 @@ fn lines(
     // its value and error, if there are trials, and where its last digit stands
     type OfTrials = Option<(Option<f64>, Option<f64>)>;
     let missing = || MISSING.to_owned();
-    let figure =
-        |place: Option<i32>, names: [&'static str; 2], gum: Option<f64>, of_trials: OfTrials| {
-            let (value, error) = of_trials.unwrap_or_default();
-            MethodsLine {
-                names,
-                gum: gum.map_or_else(missing, |value| to(value, gum_position)),
-                monte_carlo: value.map_or_else(missing, |value| {
-                    justified(value, place, error.unwrap_or(f64::NAN))
-                }),
-                error: error
-                    .filter(|error| !error.is_nan())
-                    .map_or_else(missing, |error| significant(error, 1)),
-                noiseless: [MISSING.to_owned(), MISSING.to_owned()],
-            }
-        };
-    let line = |names, gum, of: OfTrials| figure(own_position, names, gum, of);
-    let end = |names, gum, of: OfTrials| figure(end_position, names, gum, of);
+    let figure = |place: Option<i32>, name: &'static str, gum: Option<f64>, of_trials: OfTrials| {
+        let (value, error) = of_trials.unwrap_or_default();
+        MethodsLine {
+            name,
+            gum: gum.map_or_else(missing, |value| to(value, gum_position)),
+            monte_carlo: value
+                .map_or_else(missing, |value| justified(value, place, error.unwrap_or(f64::NAN))),
+            error: error
+                .filter(|error| !error.is_nan())
+                .map_or_else(missing, |error| significant(error, 1)),
+            noiseless: [MISSING.to_owned(), MISSING.to_owned()],
+        }
+    };
+    let line = |name, gum, of: OfTrials| figure(own_position, name, gum, of);
+    let end = |name, gum, of: OfTrials| figure(end_position, name, gum, of);
     let each = |of: fn(&MonteCarlo) -> (Option<f64>, Option<f64>)| trials.map(of);
     let low = |ends: [f64; 2], errors: [f64; 2]| (Some(ends[0]), Some(errors[0]));
     let high = |ends: [f64; 2], errors: [f64; 2]| (Some(ends[1]), Some(errors[1]));
@@ -535,21 +441,33 @@ fn lines(
     let shortest = trials.map(|of| (of.shortest_interval, of.errors.shortest_interval));
     let [gum_low, gum_high] = gum.and_then(Gum::interval).map_or([None; 2], |ends| ends.map(Some));
     let mut lines = vec![
+        line("estimate", gum.map(|gum| gum.estimate), each(|of| (of.estimate, of.errors.estimate))),
         line(
-            ["estimate"; 2],
-            gum.map(|gum| gum.estimate),
-            each(|of| (of.estimate, of.errors.estimate)),
-        ),
-        line(
-            ["standard uncertainty"; 2],
+            "standard uncertainty",
             uncertainty,
             each(|of| (of.standard_uncertainty, of.errors.standard_uncertainty)),
         ),
-        end(["median"; 2], None, each(|of| (Some(of.median), Some(of.errors.median)))),
-        end(SYMMETRIC_LOW, gum_low, symmetric.map(|(ends, errors)| low(ends, errors))),
-        end(SYMMETRIC_HIGH, gum_high, symmetric.map(|(ends, errors)| high(ends, errors))),
-        end(SHORTEST_LOW, None, shortest.map(|(ends, errors)| low(ends, errors))),
-        end(SHORTEST_HIGH, None, shortest.map(|(ends, errors)| high(ends, errors))),
+        end("median", None, each(|of| (Some(of.median), Some(of.errors.median)))),
+        end(
+            "coverage interval, symmetric: from",
+            gum_low,
+            symmetric.map(|(ends, errors)| low(ends, errors)),
+        ),
+        end(
+            "coverage interval, symmetric: to",
+            gum_high,
+            symmetric.map(|(ends, errors)| high(ends, errors)),
+        ),
+        end(
+            "coverage interval, shortest: from",
+            None,
+            shortest.map(|(ends, errors)| low(ends, errors)),
+        ),
+        end(
+            "coverage interval, shortest: to",
+            None,
+            shortest.map(|(ends, errors)| high(ends, errors)),
+        ),
     ];
     if let Some(of) = trials {
         lines.push(shape("skewness", of.skewness, of.errors.skewness));
@@ -568,7 +486,7 @@ fn shape(name: &'static str, value: Option<f64>, error: Option<f64>) -> MethodsL
     let missing = || MISSING.to_owned();
     let figure = |value: f64| justified(value, Some(SHAPE_PLACE), error.unwrap_or(f64::NAN));
     MethodsLine {
-        names: [name; 2],
+        name,
         gum: missing(),
         monte_carlo: value.map_or_else(missing, figure),
         error: error.map_or_else(missing, |error| significant(error, 1)),

@@ -1,7 +1,6 @@
 //! Correlation coefficients between the outputs.
 
-use super::grid::Grid;
-use super::{text, width};
+use super::text;
 use crate::number::justified;
 use crate::sheet::{Figure, Sheet};
 use gumption_engine::propagate::RowEvaluation;
@@ -13,27 +12,10 @@ const PLACE: i32 = -3;
 /// Pairs of outputs on a page, at most: those of 45 outputs.
 const MOST_PAIRS: usize = 1000;
 
-/// The coefficients as the upper triangle of their matrix or, if that is too wide, as a list.
-pub(super) fn table(task: &Task, row: &RowEvaluation) -> Option<String> {
-    match found(task, row)? {
-        Coefficients::Matrix { sheet, listed } => {
-            let grid = Grid::of(&sheet);
-            let fits = grid.natural_width() <= width();
-            Some(if fits { grid.render(width()) } else { text::wrapped(&listed) })
-        }
-        Coefficients::TooMany(said) => Some(text::wrapped(&said)),
-    }
-}
-
 /// The coefficients of a row, ready for any page.
 pub(crate) enum Coefficients {
-    /// The upper triangle of their matrix, and the same as a sentence.
-    Matrix {
-        /// The matrix.
-        sheet: Sheet,
-        /// The sentence.
-        listed: String,
-    },
+    /// The upper triangle of their matrix.
+    Matrix(Sheet),
     /// How many there are.
     TooMany(String),
 }
@@ -68,11 +50,7 @@ pub(crate) fn found(task: &Task, row: &RowEvaluation) -> Option<Coefficients> {
             Figure::of(r, cell(r, error, trials))
         })
         .collect();
-    let sheet = matrix(&names, &coefficients);
-    let pairs =
-        names.iter().enumerate().flat_map(|(i, a)| names.iter().skip(i + 1).map(move |b| (a, b)));
-    let listed = pairs.zip(&coefficients).map(|((a, b), r)| format!("r({a}, {b}) = {}", r.text));
-    Some(Coefficients::Matrix { sheet, listed: listed.collect::<Vec<_>>().join("; ") })
+    Some(Coefficients::Matrix(matrix(&names, &coefficients)))
 }
 
 fn matrix(names: &[String], coefficients: &[Figure]) -> Sheet {

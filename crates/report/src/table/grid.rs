@@ -7,7 +7,7 @@ use comfy_table::{
     Table, TableStyle, Width,
 };
 
-use super::USUAL;
+use super::{USUAL, width};
 use crate::number::align;
 use crate::sheet::{ColumnKind, Sheet};
 
@@ -19,9 +19,12 @@ const LINE: char = '─';
 /// Letters of a word that a narrow column keeps together, at most.
 const LONGEST_WORD: usize = 40;
 
+/// Letters that a text keeps on a line, however narrow the page is.
+const LEAST_TEXT: usize = 12;
+
 /// Rows below one header. Longer tables begin again with it, so that it stays in sight, and so that
 /// no more than this is laid out at a time.
-pub(super) const PAGE: usize = 1000;
+const PAGE: usize = 1000;
 
 /// A table that is filled column by column.
 #[derive(Debug, Default)]
@@ -29,6 +32,8 @@ pub struct Grid {
     columns: Vec<GridColumn>,
     /// Whether the last row is set off by a line and kept to one line.
     footer: bool,
+    /// How many columns tell which row it is; the first one alone if there are none.
+    naming: usize,
 }
 
 #[derive(Clone, Debug)]
@@ -37,19 +42,11 @@ struct GridColumn {
     cells: Vec<String>,
     alignment: CellAlignment,
     constraint: Option<ColumnConstraint>,
+    /// Whether it stands behind the others where one table is too wide for all.
+    aside: bool,
 }
 
 impl GridColumn {
-    /// The width that it needs where texts wrap as far as they may.
-    fn least_width(&self) -> usize {
-        match self.constraint {
-            Some(ColumnConstraint::LowerBoundary(Width::Fixed(width))) => {
-                self.width().min(usize::from(width.saturating_sub(GAP)))
-            }
-            _ => self.width(),
-        }
-    }
-
     /// The width below which words would break.
     fn word_width(&self) -> usize {
         if matches!(self.constraint, Some(ColumnConstraint::ContentWidth)) {
@@ -67,23 +64,27 @@ impl GridColumn {
 }
 
 impl Grid {
-    /// A table whose last row is set off by a line and kept to one line.
-    pub(super) fn with_footer() -> Self {
-        Self { columns: Vec::new(), footer: true }
-    }
-
-    /// The table of a sheet.
+    /// The table of a sheet, with its narrow headers if it is too wide for the page.
     pub(crate) fn of(sheet: &Sheet) -> Self {
-        let mut grid = Self { columns: Vec::new(), footer: sheet.footer };
-        for column in &sheet.columns {
-            let cells = column.cells.iter().cloned();
-            match column.kind {
-                ColumnKind::Numbers => grid.numbers(&column.header, cells),
-                ColumnKind::Text | ColumnKind::Equations => grid.text(&column.header, cells),
-                ColumnKind::Units => grid.units(&column.header, cells),
+        let of = |narrow: bool| {
+            let (columns, footer, naming) = (Vec::new(), sheet.footer, sheet.naming);
+            let mut grid = Self { columns, footer, naming };
+            for column in &sheet.columns {
+                let cells = column.cells.iter().cloned();
+                let header = column.narrow.as_ref().filter(|_| narrow).unwrap_or(&column.header);
+                match column.kind {
+                    ColumnKind::Numbers => grid.numbers(header, cells),
+                    ColumnKind::Text | ColumnKind::Equations => grid.text_from(header, LEAST_TEXT, cells),
+                    ColumnKind::Units => grid.units(header, cells),
+                }
+                if let Some(last) = grid.columns.last_mut() {
+                    last.aside = column.aside;
+                }
             }
-        }
-        grid
+            grid
+        };
+        let wide = of(false);
+        if wide.natural_width() <= width() { wide } else { of(true) }
     }
 
     /// A column of texts, which wrap if the page is too narrow.
@@ -98,30 +99,12 @@ impl Grid {
     }
 
     /// A column of texts that wrap only above a width.
-    pub(crate) fn text_from(
-        &mut self,
-        header: &str,
-        width: usize,
-        cells: impl IntoIterator<Item = String>,
-    ) {
+    fn text_from(&mut self, header: &str, width: usize, cells: impl IntoIterator<Item = String>) {
         self.text(header, cells);
         if let Some(column) = self.columns.last_mut() {
-            let width = width.min(column.width()) as u16 + GAP;
+            let width = width.min(column.width()) as u16;
             column.constraint = Some(ColumnConstraint::LowerBoundary(Width::Fixed(width)));
         }
-    }
-
-    /// A column of texts that wrap at a width of their own.
-    pub(super) fn text_within(
-        &mut self,
-        header: &str,
-        width: usize,
-        cells: impl IntoIterator<Item = String>,
-    ) {
-        let width = u16::try_from(width).unwrap_or(u16::MAX).saturating_add(GAP);
-        let constraint = ColumnConstraint::UpperBoundary(Width::Fixed(width));
-        let cells = cells.into_iter().collect();
-        self.push(header, cells, CellAlignment::Left, Some(constraint));
     }
 
     /// A column of numbers, which never wrap.
@@ -138,7 +121,8 @@ impl Grid {
         alignment: CellAlignment,
         constraint: Option<ColumnConstraint>,
     ) {
-        self.columns.push(GridColumn { header: header.to_owned(), cells, alignment, constraint });
+        let (header, aside) = (header.to_owned(), false);
+        self.columns.push(GridColumn { header, cells, alignment, constraint, aside });
     }
 
     /// The width that nothing wraps at.
@@ -147,17 +131,15 @@ impl Grid {
         self.columns.iter().map(GridColumn::width).sum::<usize>() + gaps
     }
 
-    /// The width at which texts that may wrap do so and nothing else does.
-    pub(super) fn least_width(&self) -> usize {
-        let gaps = self.columns.len().saturating_sub(1) * usize::from(GAP);
-        self.columns.iter().map(GridColumn::least_width).sum::<usize>() + gaps
-    }
-
     /// The table with its header, ending in a newline.
     pub fn render(&self, width: usize) -> String {
         if self.word_width() > width && self.columns.len() > 2 {
             return self.folded(width);
         }
+        self.pages(width)
+    }
+
+    fn pages(&self, width: usize) -> String {
         let rows = self.rows();
         let words = self.squeezed_words(width);
         let pages = (0..rows.max(1)).step_by(PAGE).map(|first| first..(first + PAGE).min(rows));
@@ -171,7 +153,7 @@ impl Grid {
     fn squeezed_words(&self, width: usize) -> Option<Vec<u16>> {
         let squeezed = width < USUAL && self.natural_width() > width;
         let word =
-            |column: &GridColumn| u16::try_from(column.word_width()).unwrap_or(u16::MAX) + GAP;
+            |column: &GridColumn| u16::try_from(column.word_width()).unwrap_or(u16::MAX - GAP);
         squeezed.then(|| self.columns.iter().map(word).collect())
     }
 
@@ -181,22 +163,28 @@ impl Grid {
         self.columns.iter().map(GridColumn::word_width).sum::<usize>() + gaps
     }
 
-    /// Tables one below the other that begin with the same column, where one would be too wide.
+    /// Tables one below the other that begin with the same columns, where one would be too wide.
     fn folded(&self, width: usize) -> String {
-        let Some((first, rest)) = self.columns.split_first() else { return String::new() };
-        let of = |columns: Vec<GridColumn>| Self { columns, footer: self.footer };
-        let mut grids = vec![of(vec![first.clone()])];
-        for column in rest {
+        let naming = self.naming.clamp(1, self.columns.len() - 1);
+        let room = |naming: usize| {
+            let named = self.columns.iter().take(naming);
+            named.map(|column| column.word_width() + usize::from(GAP)).sum::<usize>()
+        };
+        let naming = if 2 * room(naming) > width { 1 } else { naming };
+        let (named, rest) = self.columns.split_at(naming);
+        let of = |columns: Vec<GridColumn>| Self { columns, footer: self.footer, naming };
+        let mut grids = vec![of(named.to_vec())];
+        let (others, aside) = rest.iter().partition::<Vec<_>, _>(|column| !column.aside);
+        for column in others.into_iter().chain(aside) {
             let gap = usize::from(GAP) + column.word_width();
             match grids.last_mut() {
-                Some(last) if last.columns.len() == 1 || last.word_width() + gap <= width => {
+                Some(last) if last.columns.len() == naming || last.word_width() + gap <= width => {
                     last.columns.push(column.clone());
                 }
-                _ => grids.push(of(vec![first.clone(), column.clone()])),
+                _ => grids.push(of([named, &[column.clone()]].concat())),
             }
         }
-        let tables: Vec<String> = grids.iter().map(|grid| grid.render(width)).collect();
-        tables.join("\n")
+        grids.iter().map(|grid| grid.pages(width)).collect::<Vec<_>>().join("\n")
     }
 
     fn rows(&self) -> usize {
@@ -267,20 +255,19 @@ impl Grid {
         }
         let last = self.columns.len().saturating_sub(1);
         for (place, (column, wanted)) in table.column_iter_mut().zip(&self.columns).enumerate() {
-            column.set_padding((0, if place == last { 0 } else { GAP }));
-            let word = words.and_then(|words| words.get(place));
-            match (wanted.constraint, word) {
-                (Some(ColumnConstraint::ContentWidth), _) => {
-                    column.set_constraint(ColumnConstraint::ContentWidth);
+            let gap = if place == last { 0 } else { GAP };
+            column.set_padding((0, gap));
+            let word = words.and_then(|words| words.get(place)).copied();
+            let constraint = match (wanted.constraint, word) {
+                (Some(ColumnConstraint::ContentWidth), _) => Some(ColumnConstraint::ContentWidth),
+                (_, Some(least))
+                | (Some(ColumnConstraint::LowerBoundary(Width::Fixed(least))), None) => {
+                    Some(ColumnConstraint::LowerBoundary(Width::Fixed(least + gap)))
                 }
-                (_, Some(&word)) => {
-                    let least = Width::Fixed(word);
-                    column.set_constraint(ColumnConstraint::LowerBoundary(least));
-                }
-                (Some(constraint), None) => {
-                    column.set_constraint(constraint);
-                }
-                (None, None) => {}
+                (other, None) => other,
+            };
+            if let Some(constraint) = constraint {
+                column.set_constraint(constraint);
             }
         }
         table.lines().map(|line| line.trim_end().to_owned()).collect()

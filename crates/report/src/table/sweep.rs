@@ -3,12 +3,9 @@
 use std::collections::BTreeMap;
 
 use super::comparison::{decision, limits_text, rule};
-use super::grid::{Grid, PAGE};
-use super::{USUAL, conditions_text, row_numbers, text, title, width};
+use super::{row_numbers, text};
 use crate::evaluation::Taken;
-use crate::number::{
-    MISSING, align, exact, justified, place_of_ends, position, rounded, significant, to,
-};
+use crate::number::{MISSING, exact, justified, place_of_ends, position, rounded, significant, to};
 use crate::sheet::{Figure, Sheet};
 use gumption_engine::model::{Output, Quantity};
 use gumption_engine::number::largest_first;
@@ -16,57 +13,6 @@ use gumption_engine::propagate::gum::Gum;
 use gumption_engine::propagate::monte_carlo::{MonteCarlo, StatedInterval};
 use gumption_engine::propagate::{Conformity, OutputEvaluation, RowEvaluation, naming};
 use gumption_engine::task::{Settings, Task};
-
-/// The tables of all outputs, part by part, an empty line apart.
-pub(super) fn tables<'a>(
-    task: &'a Task,
-    rows: &'a [RowEvaluation],
-    digits: u32,
-) -> impl Iterator<Item = String> + 'a {
-    let conditions = &task.model.conditions;
-    let varying: Vec<usize> =
-        (0..conditions.len()).filter(|&position| varies(rows, position)).collect();
-    let unvaried = fixed(conditions, rows, &varying);
-    let sweep = Sweep { task, rows, digits, has_trials: rows.iter().any(has_trials) };
-    let [wide, narrow] =
-        [WIDE, NARROW].map(|uncertainty| SweepLayout { labels: Labels::Conditions, uncertainty });
-    let numbers = SweepLayout { labels: Labels::Numbers, uncertainty: WIDE };
-    let layouts = [wide, narrow];
-    // what was measured in every row may stand among the conditions: where all of them leave no room
-    // for the answer, those that tell the rows apart name them
-    let named = naming(rows);
-    let choices = [&varying, &named].into_iter().flat_map(|of| layouts.map(|layout| (layout, of)));
-    let chosen = choices.into_iter().find(|(layout, of)| sweep.fits(*layout, of));
-    // a narrow page folds its tables behind the one condition that names the rows
-    let folded = || match (named.as_slice(), width() < USUAL) {
-        ([_], true) => (layouts[1], named.clone()),
-        _ => (numbers, varying.clone()),
-    };
-    let (layout, varying) = chosen.map_or_else(folded, |(layout, of)| (layout, of.clone()));
-    let hidden = if matches!(layout.labels, Labels::Numbers) {
-        None
-    } else {
-        let count = (0..conditions.len()).filter(|&place| varies(rows, place)).count();
-        others(count - varying.len())
-    };
-    let by_number = matches!(layout.labels, Labels::Numbers).then(|| varying.clone());
-    let by_number = by_number.into_iter().flat_map(|varying| numbered(conditions, rows, varying));
-    let outputs = task.model.outputs.iter().enumerate();
-    let tables = outputs.flat_map(move |(output, Output { quantity, .. })| {
-        let mut above = title(quantity) + "\n";
-        let varying = varying.clone();
-        let pages = (0..rows.len()).step_by(PAGE);
-        let pages = pages.map(move |first| {
-            let grid = sweep.grid(output, layout, &varying, first);
-            std::mem::take(&mut above) + &grid.render(width())
-        });
-        let said = taken(&task.settings, rows, output).into_iter();
-        let said = said.chain(conformity(task, rows, output));
-        pages.chain(said.map(|said| text::wrapped(&said)))
-    });
-    let last = text::wrapped(MORE);
-    unvaried.into_iter().chain(hidden).chain(by_number).chain(tables).chain([last])
-}
 
 /// What else there is of a sweep.
 pub(crate) const MORE: &str = "Budgets, shortest intervals, numerical standard errors and correlations of every row: \
@@ -187,8 +133,7 @@ pub(crate) fn shares(task: &Task, rows: &[RowEvaluation], output: usize) -> Opti
     if chosen.is_empty() {
         return None;
     }
-    let mut sheet = Sheet::default();
-    conditions(&mut sheet, task, rows, &shown(task, rows));
+    let mut sheet = of_rows(task, rows);
     let mut column = |header: &str, holds: &dyn Fn(Sharing) -> bool| {
         let share = |gum: &Option<&Gum>| {
             let own = sharing((*gum)?).filter(|(of, _)| holds(*of));
@@ -237,7 +182,9 @@ fn answer(sheet: &mut Sheet, lines: &[SweepLine], has_trials: bool) {
     let column = |position: usize| lines.iter().map(move |line| line.texts[position].clone());
     sheet.numbers("estimate", column(0));
     sheet.numbers("standard\nuncertainty", column(1));
+    sheet.narrow("standard\nuncer-\ntainty");
     sheet.numbers("expanded\nuncertainty", column(2));
+    sheet.narrow("expanded\nuncer-\ntainty");
     sheet.numbers("k", column(3));
     if lines.iter().any(|line| line.is_raised) {
         sheet.numbers(RAISED, lines.iter().map(|line| line.stated.clone()));
@@ -253,6 +200,7 @@ fn answer(sheet: &mut Sheet, lines: &[SweepLine], has_trials: bool) {
                 None => missing(),
             };
             sheet.text("Monte Carlo\ninterval is", lines.iter().map(kind));
+            sheet.aside();
         }
     }
     if lines.iter().any(|line| line.is_decided_apart) {
@@ -269,11 +217,14 @@ const MOST_SHOWN: usize = 3;
 /// Further conditions in one table, at most, so that it is no wider than a sheet of paper.
 const MOST_APART: usize = 7;
 
-/// The conditions that stand beside the answer, by their places.
+/// The conditions that stand beside the answer, by their places: none where it takes many to
+/// tell the rows apart.
 fn shown(task: &Task, rows: &[RowEvaluation]) -> Vec<usize> {
     let count = task.model.conditions.len();
-    let naming = if count > MOST_SHOWN { naming(rows) } else { Vec::new() };
-    if naming.is_empty() { (0..count).collect() } else { naming }
+    if count <= MOST_SHOWN {
+        return (0..count).collect();
+    }
+    Some(naming(rows)).filter(|named| named.len() <= MOST_SHOWN).unwrap_or_default()
 }
 
 /// The conditions that do not stand beside the answer, each table with those that do.
@@ -282,11 +233,24 @@ pub(crate) fn apart(task: &Task, rows: &[RowEvaluation]) -> Vec<Sheet> {
     let count = task.model.conditions.len();
     let others: Vec<usize> = (0..count).filter(|place| !shown.contains(place)).collect();
     let table = |others: &[usize]| {
-        let mut sheet = Sheet::default();
-        conditions(&mut sheet, task, rows, &[&shown, others].concat());
+        let mut sheet = of_rows(task, rows);
+        conditions(&mut sheet, task, rows, others);
         sheet
     };
     others.chunks(MOST_APART).map(table).collect()
+}
+
+/// A table whose first columns tell which row it is: the conditions that stand beside the answer, or the
+/// row's number.
+fn of_rows(task: &Task, rows: &[RowEvaluation]) -> Sheet {
+    let mut sheet = Sheet::default();
+    let shown = shown(task, rows);
+    if shown.is_empty() {
+        sheet.numbers("row", (1..=rows.len()).map(|number| number.to_string()));
+    }
+    conditions(&mut sheet, task, rows, &shown);
+    sheet.naming = sheet.columns.len();
+    sheet
 }
 
 /// A column for each of these conditions.
@@ -300,8 +264,7 @@ fn conditions(sheet: &mut Sheet, task: &Task, rows: &[RowEvaluation], places: &[
 
 /// The table of an output over the first rows of a sweep, without a look.
 pub(crate) fn sheet(task: &Task, rows: &[RowEvaluation], output: usize, digits: u32) -> Sheet {
-    let mut sheet = Sheet::default();
-    conditions(&mut sheet, task, rows, &shown(task, rows));
+    let mut sheet = of_rows(task, rows);
     let lines: Vec<SweepLine> =
         rows.iter().map(|row| line(row.outputs.get(output), digits)).collect();
     answer(&mut sheet, &lines, rows.iter().any(has_trials));
@@ -310,157 +273,6 @@ pub(crate) fn sheet(task: &Task, rows: &[RowEvaluation], output: usize, digits: 
 
 fn has_trials(row: &RowEvaluation) -> bool {
     row.outputs.iter().any(|output| output.monte_carlo.is_some())
-}
-
-/// What the tables are made of.
-#[derive(Clone, Copy, Debug)]
-struct Sweep<'a> {
-    task: &'a Task,
-    rows: &'a [RowEvaluation],
-    digits: u32,
-    /// Whether there are trials in any row.
-    has_trials: bool,
-}
-
-/// How they are set.
-#[derive(Clone, Copy, Debug)]
-struct SweepLayout {
-    labels: Labels,
-    /// The word below "standard" and "expanded".
-    uncertainty: &'static str,
-}
-
-/// The word below "standard" and "expanded", and its form for narrow columns.
-const WIDE: &str = "uncertainty";
-const NARROW: &str = "uncer-\ntainty";
-
-/// What stands at the start of a line.
-#[derive(Clone, Copy, Debug)]
-enum Labels {
-    /// The varying conditions.
-    Conditions,
-    /// The number of the row.
-    Numbers,
-}
-
-/// That conditions do not stand in the table.
-fn others(count: usize) -> Option<String> {
-    let plural = if count == 1 { "condition" } else { "conditions" };
-    (count > 0)
-        .then(|| text::wrapped(&format!("{count} more {plural} of every row: --format csv.")))
-}
-
-fn varies(rows: &[RowEvaluation], position: usize) -> bool {
-    let mut values = rows.iter().map(|row| row.conditions.get(position));
-    let first = values.next();
-    values.any(|value| Some(value) != first)
-}
-
-/// The conditions that are the same in all rows.
-fn fixed(conditions: &[Quantity], rows: &[RowEvaluation], varying: &[usize]) -> Option<String> {
-    let row = rows.first()?;
-    let (quantities, values) = chosen(conditions, row, |position| !varying.contains(&position));
-    (!quantities.is_empty())
-        .then(|| text::wrapped(&format!("at {}", conditions_text(&quantities, &values))))
-}
-
-/// The varying conditions of every row, by its number, page by page.
-fn numbered<'a>(
-    conditions: &'a [Quantity],
-    rows: &'a [RowEvaluation],
-    varying: Vec<usize>,
-) -> impl Iterator<Item = String> + 'a {
-    rows.chunks(PAGE).enumerate().map(move |(page, rows)| {
-        let mut grid = Grid::default();
-        grid.numbers("row", numbers(page * PAGE, rows.len()));
-        grid.text(
-            "conditions",
-            rows.iter().map(|row| {
-                let (quantities, values) =
-                    chosen(conditions, row, |position| varying.contains(&position));
-                conditions_text(&quantities, &values)
-            }),
-        );
-        grid.render(width())
-    })
-}
-
-/// The numbers of so many rows behind the first ones.
-fn numbers(before: usize, count: usize) -> impl Iterator<Item = String> {
-    (before + 1..=before + count).map(|number| number.to_string())
-}
-
-fn chosen(
-    conditions: &[Quantity],
-    row: &RowEvaluation,
-    keep: impl Fn(usize) -> bool,
-) -> (Vec<Quantity>, Vec<f64>) {
-    let all = conditions.iter().cloned().zip(row.conditions.iter().copied()).enumerate();
-    all.filter(|(position, _)| keep(*position)).map(|(_, condition)| condition).unzip()
-}
-
-impl Sweep<'_> {
-    /// Whether all tables fit the page.
-    fn fits(&self, layout: SweepLayout, varying: &[usize]) -> bool {
-        (0..self.task.model.outputs.len()).all(|output| {
-            let mut pages = (0..self.rows.len()).step_by(PAGE);
-            pages.all(|first| self.grid(output, layout, varying, first).natural_width() <= width())
-        })
-    }
-
-    /// A page of the table of an output, which begins with the row at `first`: of a long sweep only
-    /// one is in memory.
-    fn grid(&self, output: usize, layout: SweepLayout, varying: &[usize], first: usize) -> Grid {
-        let rows = self.rows.get(first..).unwrap_or_default();
-        let rows = &rows[..rows.len().min(PAGE)];
-        let mut grid = Grid::default();
-        match layout.labels {
-            Labels::Numbers => grid.numbers("row", numbers(first, rows.len())),
-            Labels::Conditions => {
-                for &position in varying {
-                    let Some(condition) = self.task.model.conditions.get(position) else {
-                        continue;
-                    };
-                    let values = rows.iter().map(|row| row.conditions.get(position).copied());
-                    grid.numbers(&header(condition), values.map(|v| v.map_or_else(missing, exact)));
-                }
-            }
-        }
-        let lines: Vec<SweepLine> =
-            rows.iter().map(|row| line(row.outputs.get(output), self.digits)).collect();
-        let column = |position: usize| lines.iter().map(move |line| line.texts[position].clone());
-        let uncertainty = layout.uncertainty;
-        grid.numbers("estimate", column(0));
-        grid.numbers(&format!("standard\n{uncertainty}"), column(1));
-        grid.numbers(&format!("expanded\n{uncertainty}"), column(2));
-        grid.numbers("k", column(3));
-        if lines.iter().any(|line| line.is_raised) {
-            grid.numbers(RAISED, lines.iter().map(|line| line.stated.clone()));
-        }
-        if self.has_trials {
-            let ends = [4, 5].map(|position| align(&column(position).collect::<Vec<_>>()));
-            let [low, high] = ends;
-            let are = |kind: Option<bool>| lines.iter().any(|line| line.shortest == kind);
-            let (header, marked) = match (are(Some(true)), are(Some(false))) {
-                (true, true) => ("Monte Carlo interval\nfrom, to; s: shortest", true),
-                (true, false) => ("Monte Carlo interval\n(shortest) from, to", false),
-                (false, _) => ("Monte Carlo interval\n(symmetric) from, to", false),
-            };
-            let intervals = low.into_iter().zip(high).zip(&lines).map(|((low, high), line)| {
-                let mark = if marked && line.shortest == Some(true) { "  s" } else { "" };
-                format!("{low}  {high}{mark}")
-            });
-            grid.text(header, intervals);
-            grid.text("GUM\ninterval", column(6));
-        }
-        if lines.iter().any(|line| line.is_decided_apart) {
-            grid.numbers(DECIDING, lines.iter().map(|line| line.deciding.clone()));
-        }
-        if lines.iter().any(|line| line.decision != MISSING) {
-            grid.text("decision", lines.iter().map(|line| line.decision.to_owned()));
-        }
-        grid
-    }
 }
 
 fn header(condition: &Quantity) -> String {

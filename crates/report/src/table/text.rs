@@ -4,9 +4,6 @@ use super::grid::Grid;
 use super::text_width;
 use gumption_text::is_obeyed;
 
-/// Names in a list of definitions get this many characters before they wrap.
-const NAME_WIDTH: usize = 32;
-
 /// Characters of a text that the page shows at most: twenty lines.
 const LONGEST: usize = 2000;
 
@@ -42,14 +39,6 @@ pub fn wrapped(text: &str) -> String {
     }
     let mut grid = Grid::default();
     grid.text("", [text]);
-    grid.bare(text_width())
-}
-
-/// Names with what they are.
-pub(super) fn definitions(entries: &[(&str, &str)]) -> String {
-    let mut grid = Grid::default();
-    grid.text_within("", NAME_WIDTH, entries.iter().map(|(name, _)| plain(name)));
-    grid.text("", entries.iter().map(|(_, about)| plain(about)));
     grid.bare(text_width())
 }
 

@@ -3,7 +3,7 @@
 use std::path::Path;
 
 use super::*;
-use crate::{BudgetColumn, TableStyle, table};
+use crate::{BudgetColumn, Shown, table};
 use gumption_files::read_text;
 
 /// One input of every kind of statement, in a file as laboratories write it.
@@ -29,8 +29,7 @@ const FILE: &str = r#"{
 fn page(text: &str, columns: &[BudgetColumn]) -> String {
     let file = read_text("file", text, Path::new(""), &[]);
     let case = Case::new(file.unwrap_or_else(|problems| panic!("{problems:?}")).task);
-    let style = TableStyle { columns: columns.to_vec(), ..TableStyle::default() };
-    let page = table(&case.report(), &style);
+    let page = table(&case.report(), &Shown { columns, ..Shown::default() });
     let widest = page.lines().map(|line| line.chars().count()).max().unwrap_or(0);
     assert!(widest <= 100, "{widest} columns:\n{page}");
     page
@@ -39,8 +38,8 @@ fn page(text: &str, columns: &[BudgetColumn]) -> String {
 /// The budget alone.
 fn budget(columns: &[BudgetColumn]) -> String {
     let page = page(FILE, columns);
-    let start = page.find("quantity").unwrap();
-    let end = page.find("subtotals").unwrap();
+    let start = page.find("\nquantity     estimate").unwrap() + 1;
+    let end = page.find("Subtotals").unwrap();
     page[start..end].to_owned()
 }
 
@@ -62,7 +61,8 @@ fn widths_and_divisors() {
     slope           0.05      -       -         0      mV/K  constant       ∞  23.00       0        0.0
     ───────────────────────────────────────────────────────────────────────────────────────────────────
     v            5011.75                        0.23   mV    combined     125              0.23   100.0
-    sensitivity coefficients in mV per unit of the quantity, contributions in mV
+
+    Sensitivity coefficients in mV per unit of the quantity, contributions in mV.
     ");
 }
 
@@ -84,44 +84,47 @@ fn relative_figures() {
     slope           0.05      0       0       mV/K  constant       ∞  23.00       0      0          0.0
     ───────────────────────────────────────────────────────────────────────────────────────────────────
     v            5011.75      0.23    0.0046  mV    combined     125              0.23   0.0046   100.0
-    sensitivity coefficients in mV per unit of the quantity, contributions in mV; relative: standard
-    uncertainty to the modulus of the estimate; of y: contribution to the modulus of v
+
+    Sensitivity coefficients in mV per unit of the quantity, contributions in mV; relative: standard
+    uncertainty to the modulus of the estimate; of y: contribution to the modulus of v.
     ");
 }
 
 #[test]
 fn type_and_source() {
     insta::assert_snapshot!(budget(&[BudgetColumn::Type, BudgetColumn::About]), @"
-    quantity     estimate     standard  unit  distribution  dof  sensitivity  contribution  share
-                           uncertainty                           coefficient                 in %
-    ─────────────────────────────────────────────────────────────────────────────────────────────
-    reading      5010.000        0.091  mV    readings        3      1.000           0.091   15.5
-    certificate     0.50         0.10   mV    normal          ∞      1.000           0.10    18.6
-    drift           0.00         0.12   mV    triangular      ∞      1.000           0.12    27.9
-    resolution      0.000        0.029  mV    rectangular     ∞      1.000           0.029    1.5
-    offset          0.00         0.10   mV    normal          ∞      1.000           0.10    19.3
-    skew            0.100        0.071  mV    triangular      ∞      1.000           0.071    9.3
-    noise           0.000        0.030  mV    normal          ∞      1.000           0.030    1.7
-    temp           23.0          1.2    degC  rectangular     ∞      0.05000         0.058    6.2
-    slope           0.05         0      mV/K  constant        ∞     23.00            0        0.0
-    ─────────────────────────────────────────────────────────────────────────────────────────────
-    v            5011.75         0.23   mV    combined      125                      0.23   100.0
+    quantity     estimate  standard  unit  distri-      type  dof    sensi-  contri-  share
+                             uncer-        bution                    tivity   bution   in %
+                             tainty
+    ───────────────────────────────────────────────────────────────────────────────────────
+    reading      5010.000     0.091  mV    readings     A       3   1.000      0.091   15.5
+    certificate     0.50      0.10   mV    normal       B       ∞   1.000      0.10    18.6
+    drift           0.00      0.12   mV    triangular   B       ∞   1.000      0.12    27.9
+    resolution      0.000     0.029  mV    rectangular  B       ∞   1.000      0.029    1.5
+    offset          0.00      0.10   mV    normal       B       ∞   1.000      0.10    19.3
+    skew            0.100     0.071  mV    triangular   B       ∞   1.000      0.071    9.3
+    noise           0.000     0.030  mV    normal       B       ∞   1.000      0.030    1.7
+    temp           23.0       1.2    degC  rectangular  B       ∞   0.05000    0.058    6.2
+    slope           0.05      0      mV/K  constant     B       ∞  23.00       0        0.0
+    ───────────────────────────────────────────────────────────────────────────────────────
+    v            5011.75      0.23   mV    combined           125              0.23   100.0
 
-    quantity     type  source of
-                       uncertainty
-    ──────────────────────────────────────────────────────
-    reading      A     repeatability
-    certificate  B     certificate of the voltmeter, k = 2
-    drift        B     since calibration
-    resolution   B
-    offset       B
-    skew         B
-    noise        B
-    temp         B
-    slope        B
-    ──────────────────────────────────────────────────────
+    quantity     source of
+                 uncertainty
+    ────────────────────────────────────────────────
+    reading      repeatability
+    certificate  certificate of the voltmeter, k = 2
+    drift        since calibration
+    resolution
+    offset
+    skew
+    noise
+    temp
+    slope
+    ────────────────────────────────────────────────
     v
-    sensitivity coefficients in mV per unit of the quantity, contributions in mV
+
+    Sensitivity coefficients in mV per unit of the quantity, contributions in mV.
     ");
 }
 
@@ -129,39 +132,39 @@ fn type_and_source() {
 #[test]
 fn all_columns() {
     insta::assert_snapshot!(budget(&BudgetColumn::ALL), @"
-    quantity     estimate     standard  unit  distribution  dof  sensitivity  contribution  share
-                           uncertainty                           coefficient                 in %
-    ─────────────────────────────────────────────────────────────────────────────────────────────
-    reading      5010.000        0.091  mV    readings        3      1.000           0.091   15.5
-    certificate     0.50         0.10   mV    normal          ∞      1.000           0.10    18.6
-    drift           0.00         0.12   mV    triangular      ∞      1.000           0.12    27.9
-    resolution      0.000        0.029  mV    rectangular     ∞      1.000           0.029    1.5
-    offset          0.00         0.10   mV    normal          ∞      1.000           0.10    19.3
-    skew            0.100        0.071  mV    triangular      ∞      1.000           0.071    9.3
-    noise           0.000        0.030  mV    normal          ∞      1.000           0.030    1.7
-    temp           23.0          1.2    degC  rectangular     ∞      0.05000         0.058    6.2
-    slope           0.05         0      mV/K  constant        ∞     23.00            0        0.0
-    ─────────────────────────────────────────────────────────────────────────────────────────────
-    v            5011.75         0.23   mV    combined      125                      0.23   100.0
+    quantity     estimate  value ±  divisor  standard    rela-  unit  distri-      type  dof    sensi-
+                                               uncer-     tive        bution                    tivity
+                                               tainty     in %
+    ──────────────────────────────────────────────────────────────────────────────────────────────────
+    reading      5010.000     0.18    2         0.091   0.0018  mV    readings     A       3   1.000
+    certificate     0.50      0.2     2         0.10   20       mV    normal       B       ∞   1.000
+    drift           0.00      0.3     2.449     0.12    -       mV    triangular   B       ∞   1.000
+    resolution      0.000     0.05    1.732     0.029   -       mV    rectangular  B       ∞   1.000
+    offset          0.00      0.2     1.96      0.10    -       mV    normal       B       ∞   1.000
+    skew            0.100     -       -         0.071  71       mV    triangular   B       ∞   1.000
+    noise           0.000     0.03    1         0.030   -       mV    normal       B       ∞   1.000
+    temp           23.0       2       1.732     1.2     -       degC  rectangular  B       ∞   0.05000
+    slope           0.05      -       -         0       0       mV/K  constant     B       ∞  23.00
+    ──────────────────────────────────────────────────────────────────────────────────────────────────
+    v            5011.75                        0.23    0.0046  mV    combined           125
 
-    quantity     value ±  divisor    rela-     of y  type  group      source of
-                                      tive     in %                   uncertainty
-                                      in %
+    quantity     contri-     of y  share  group      source of
+                  bution     in %   in %             uncertainty
     ────────────────────────────────────────────────────────────────────────────────────
-    reading         0.18    2       0.0018  0.0018   A                repeatability
-    certificate     0.2     2      20       0.0020   B     voltmeter  certificate of the
-                                                                      voltmeter, k = 2
-    drift           0.3     2.449   -       0.0024   B     voltmeter  since calibration
-    resolution      0.05    1.732   -       0.00058  B     voltmeter
-    offset          0.2     1.96    -       0.0020   B
-    skew            -       -      71       0.0014   B
-    noise           0.03    1       -       0.00060  B
-    temp            2       1.732   -       0.0012   B
-    slope           -       -       0       0        B
+    reading        0.091  0.0018    15.5             repeatability
+    certificate    0.10   0.0020    18.6  voltmeter  certificate of the voltmeter, k = 2
+    drift          0.12   0.0024    27.9  voltmeter  since calibration
+    resolution     0.029  0.00058    1.5  voltmeter
+    offset         0.10   0.0020    19.3
+    skew           0.071  0.0014     9.3
+    noise          0.030  0.00060    1.7
+    temp           0.058  0.0012     6.2
+    slope          0      0          0.0
     ────────────────────────────────────────────────────────────────────────────────────
-    v                               0.0046  0.0046
-    sensitivity coefficients in mV per unit of the quantity, contributions in mV; relative: standard
-    uncertainty to the modulus of the estimate; of y: contribution to the modulus of v
+    v              0.23   0.0046   100.0
+
+    Sensitivity coefficients in mV per unit of the quantity, contributions in mV; relative: standard
+    uncertainty to the modulus of the estimate; of y: contribution to the modulus of v.
     ");
 }
 
@@ -172,17 +175,16 @@ fn a_column_stays_in_the_table() {
         assert_eq!(page.matches("quantity ").count(), 1, "{column:?}\n{page}");
     }
     let case = Case::new(plane_at(35.0, 0));
-    let columns = vec![BudgetColumn::Divisor, BudgetColumn::Relative];
-    let page = table(&case.report(), &TableStyle { columns, ..TableStyle::default() });
-    let first = &page[..page.find("a_y in").unwrap()];
+    let columns = &[BudgetColumn::Divisor, BudgetColumn::Relative];
+    let page = table(&case.report(), &Shown { columns, ..Shown::default() });
+    let first = &page[page.find("\na_x in").unwrap()..page.find("\na_y in").unwrap()];
     assert_eq!(first.matches("quantity ").count(), 1, "{page}");
 }
 
 #[test]
 fn a_correlation_has_no_cells_of_its_own() {
     let case = Case::new(correlated(0));
-    let style = TableStyle { columns: BudgetColumn::ALL.to_vec(), ..TableStyle::default() };
-    let page = table(&case.report(), &style);
+    let page = table(&case.report(), &Shown { columns: &BudgetColumn::ALL, ..Shown::default() });
     assert!(page.lines().any(|line| line.starts_with("r(a_ref, tilt)")), "{page}");
     assert!(page.lines().all(|line| line.chars().count() <= 100), "{page}");
 }

@@ -411,7 +411,7 @@ fn a_stopped_run_says_the_trials_that_were_made() {
     case.evaluation.stopped = true;
     case.evaluation.settings.trials = Trials::Fixed(1_000_000_000);
     let [made, asked] = [20_000, 1_000_000_000].map(crate::grouped);
-    let table = crate::table(&case.report(), &crate::TableStyle::default());
+    let table = crate::table(&case.report(), &Shown::default());
     let all = pages(&case, &[]).map(|(format, page, _)| (format, page));
     for (format, page) in all.into_iter().chain([("table", table)]) {
         let page = page.split_whitespace().collect::<Vec<_>>().join(" ");

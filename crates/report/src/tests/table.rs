@@ -3,13 +3,18 @@
 use std::sync::Arc;
 
 use super::*;
-use crate::{BudgetColumn, TableStyle, table};
+use crate::{BudgetColumn, Shown, table};
 use gumption_engine::distribution::{Distribution, EvaluationType as Kind, Rectangular};
 use gumption_engine::propagate::gum::Dof;
 use gumption_engine::task::Coverage;
 
+/// A page with one blank between words.
+fn words(page: &str) -> String {
+    page.split_whitespace().collect::<Vec<_>>().join(" ")
+}
+
 fn page(case: &Case) -> String {
-    let page = table(&case.report(), &TableStyle::default());
+    let page = table(&case.report(), &Shown::default());
     let widest = page.lines().map(|line| line.chars().count()).max().unwrap_or(0);
     assert!(widest <= 100, "{widest} columns:\n{page}");
     assert!(page.lines().all(|line| !line.ends_with(' ')), "{page}");
@@ -20,20 +25,28 @@ fn page(case: &Case) -> String {
 fn inclined_plane() {
     insta::assert_snapshot!(page(&only_z(Case::new(plane_at(35.0, 100_000)))), @"
     inclined-plane
+    ══════════════
+
     coverage probability 95 %; 100 000 Monte Carlo trials, seed 1
 
-    model inclined-plane: Prato, Mazzoleni, Schiavi (2020), equations (1)-(3); Chiominto et al. (2024),
-    equation (1)
-    a_x = abs(a_ref*sin(tilt)*cos(rotation))
-    a_y = abs(a_ref*sin(tilt)*sin(rotation))
-    a_z = abs(a_ref*cos(tilt))
+    Measurement model
+    ─────────────────
 
-    a_ref     Reference acceleration along the vertical, RMS.
-    tilt      Tilt angle of the plane against the horizontal.
-    rotation  Rotation angle of the sensor on the plane.
+    Model inclined-plane: Prato, Mazzoleni, Schiavi (2020), equations (1)-(3); Chiominto et al. (2024),
+    equation (1).
+
+    quantity  equation
+    ────────────────────────────────────────────
+    a_x       abs(a_ref*sin(tilt)*cos(rotation))
+    a_y       abs(a_ref*sin(tilt)*sin(rotation))
+    a_z       abs(a_ref*cos(tilt))
 
     a_z in m/s^2: Acceleration along the sensor's z axis, RMS.
-    ══════════════════════════════════════════════════════════
+    ──────────────────────────────────────────────────────────
+
+    a_z = (8.192 ± 0.020) m/s^2; k = 1.96, coverage probability 95 %
+    JCGM 101, clause 8: the GUM interval is valid here: its ends lie d_low = 0.00016 and d_high =
+    0.00007 m/s^2 from the Monte Carlo ones, within the numerical tolerance 0.0005 m/s^2 (2 digits).
 
     quantity  estimate     standard  unit   distribution  dof  sensitivity  contribution  share
                         uncertainty                            coefficient                 in %
@@ -43,180 +56,262 @@ fn inclined_plane() {
     rotation     0            0      deg    constant        ∞       0             0         0.0
     ───────────────────────────────────────────────────────────────────────────────────────────
     a_z          8.192        0.010  m/s^2  combined        ∞                     0.010   100.0
-    sensitivity coefficients in m/s^2 per unit of the quantity, contributions in m/s^2
 
-    combined standard uncertainty  0.010 m/s^2
+    Sensitivity coefficients in m/s^2 per unit of the quantity, contributions in m/s^2.
+
+    result                         value  unit
+    ─────────────────────────────────────────────────────
+    combined standard uncertainty  0.010  m/s^2
     effective degrees of freedom   ∞
-    coverage factor                1.96 for 95 %
-    expanded uncertainty           0.020 m/s^2
+    coverage factor                1.96          for 95 %
+    expanded uncertainty           0.020  m/s^2
 
-                                          GUM  Monte Carlo       numerical
+    figure                                GUM  Monte Carlo       numerical
                                                             standard error
     ──────────────────────────────────────────────────────────────────────
     estimate                            8.192        8.192         0.00003
     standard uncertainty                0.010        0.010         0.00002
     median                              -            8.192         0.00004
     coverage interval, symmetric: from  8.172        8.172         0.00007
-                                  to    8.211        8.211         0.00007
-    coverage interval, shortest:  from  -            8.172         0.0003
-                                  to    -            8.211         0.0003
+    coverage interval, symmetric: to    8.211        8.211         0.00007
+    coverage interval, shortest: from   -            8.172         0.0003
+    coverage interval, shortest: to     -            8.211         0.0003
     skewness                            -           -0.01          0.008
     excess kurtosis                     -           -0.13          0.01
 
-    JCGM 101, clause 8: the GUM interval is valid here: its ends lie d_low = 0.00016 and d_high =
-    0.00007 m/s^2 from the Monte Carlo ones, within the numerical tolerance 0.0005 m/s^2 (2 digits).
+    Quantities
+    ──────────
+
+    quantity  what it is
+    ─────────────────────────────────────────────────────────
+    a_ref     Reference acceleration along the vertical, RMS.
+    tilt      Tilt angle of the plane against the horizontal.
+    rotation  Rotation angle of the sensor on the plane.
+
+    To repeat this
+    ──────────────
+
+    what                  value
+    ────────────────────────────────────
+    program               gumption 0.1.0
+    seed                  1
+    trials                100000
+    coverage probability  0.95
+    digits                2
+    model file, SHA-256   0123
+    data.csv, SHA-256     4567
+
+    The same program, files and seed give the same figures on any number of threads.
     ");
 }
 
 #[test]
 fn readings_groups_and_degrees_of_freedom() {
-    insta::assert_snapshot!(page(&Case::new(grouped(20_000))), @r"
-        inclined-plane
-        coverage probability 95 %; 20 000 Monte Carlo trials, seed 1
+    insta::assert_snapshot!(page(&Case::new(grouped(20_000))), @"
+    inclined-plane
+    ══════════════
 
-        model inclined-plane: Prato, Mazzoleni, Schiavi (2020), equations (1)-(3); Chiominto et al. (2024),
-        equation (1)
-        a_x = abs(a_ref*sin(tilt)*cos(rotation))
-        a_y = abs(a_ref*sin(tilt)*sin(rotation))
-        a_z = abs(a_ref*cos(tilt))
+    coverage probability 95 %; 20 000 Monte Carlo trials, seed 1
 
-        a_ref     repeatability
-        tilt      Tilt angle of the plane against the horizontal.
-        rotation  Rotation angle of the sensor on the plane.
+    Measurement model
+    ─────────────────
 
-        a_x in m/s^2: Acceleration along the sensor's x axis, RMS.
-        ══════════════════════════════════════════════════════════
+    Model inclined-plane: Prato, Mazzoleni, Schiavi (2020), equations (1)-(3); Chiominto et al. (2024),
+    equation (1).
 
-        quantity  estimate     standard  unit   distribution         dof  sensitivity  contribution  share
-                            uncertainty                                   coefficient                 in %
-        ──────────────────────────────────────────────────────────────────────────────────────────────────
-        a_ref      10.0000       0.0071  m/s^2  readings               4      0.4967         0.0035   20.9
-        tilt       35.000        0.050   deg    normal (drawn as t)   12      0.1238         0.0062   64.9
-        rotation   30.000        0.058   deg    rectangular            ∞     -0.05005        0.0029   14.2
-        ──────────────────────────────────────────────────────────────────────────────────────────────────
-        a_x         4.9673       0.0077  m/s^2  combined              21                     0.0077  100.0
-        sensitivity coefficients in m/s^2 per unit of the quantity, contributions in m/s^2
-        subtotals: angles 79.1 %, no group 20.9 %; type A 20.9 %, type B 79.1 %
+    quantity  equation
+    ────────────────────────────────────────────
+    a_x       abs(a_ref*sin(tilt)*cos(rotation))
+    a_y       abs(a_ref*sin(tilt)*sin(rotation))
+    a_z       abs(a_ref*cos(tilt))
 
-        combined standard uncertainty  0.0077 m/s^2
-        effective degrees of freedom   21
-        coverage factor                2.08 for 95 %
-        expanded uncertainty           0.016 m/s^2
+    a_x in m/s^2: Acceleration along the sensor's x axis, RMS.
+    ──────────────────────────────────────────────────────────
 
-                                               GUM  Monte Carlo       numerical
-                                                                 standard error
-        ───────────────────────────────────────────────────────────────────────
-        estimate                            4.9673       4.9673         0.00006
-        standard uncertainty                0.0077       0.0090         -
-        median                              -            4.9673         0.00007
-        coverage interval, symmetric: from  4.9513       4.9496         0.0002
-                                      to    4.9833       4.9850         0.0001
-        coverage interval, shortest:  from  -            4.9500         0.0004
-                                      to    -            4.9853         0.0002
-        skewness                            -           -0.13           -
-        excess kurtosis                     -            -              -
+    a_x = 4.9673 m/s^2; coverage interval from 4.9496 to 4.9850 m/s^2 (Monte Carlo, probabilistically
+    symmetric), coverage probability 95 %
+    JCGM 101, clause 8: the GUM interval is not valid here: its ends lie d_low = 0.0017 and d_high =
+    0.0017 m/s^2 from the Monte Carlo ones, beyond the numerical tolerance 0.00005 m/s^2 (2 digits).
+    Take the symmetric Monte Carlo interval.
 
-        JCGM 101, clause 8: the GUM interval is not valid here: its ends lie d_low = 0.0017 and d_high =
-        0.0017 m/s^2 from the Monte Carlo ones, beyond the numerical tolerance 0.00005 m/s^2 (2 digits).
-        Take the symmetric Monte Carlo interval.
+    quantity  estimate     standard  unit   distribution         dof  sensitivity  contribution  share
+                        uncertainty                                   coefficient                 in %
+    ──────────────────────────────────────────────────────────────────────────────────────────────────
+    a_ref      10.0000       0.0071  m/s^2  readings               4      0.4967         0.0035   20.9
+    tilt       35.000        0.050   deg    normal (drawn as t)   12      0.1238         0.0062   64.9
+    rotation   30.000        0.058   deg    rectangular            ∞     -0.05005        0.0029   14.2
+    ──────────────────────────────────────────────────────────────────────────────────────────────────
+    a_x         4.9673       0.0077  m/s^2  combined              21                     0.0077  100.0
 
-        a_y in m/s^2: Acceleration along the sensor's y axis, RMS.
-        ══════════════════════════════════════════════════════════
+    Sensitivity coefficients in m/s^2 per unit of the quantity, contributions in m/s^2.
 
-        quantity  estimate     standard  unit   distribution         dof  sensitivity  contribution  share
-                            uncertainty                                   coefficient                 in %
-        ──────────────────────────────────────────────────────────────────────────────────────────────────
-        a_ref      10.0000       0.0071  m/s^2  readings               4      0.2868         0.0020    9.8
-        tilt       35.000        0.050   deg    normal (drawn as t)   12      0.07148        0.0036   30.5
-        rotation   30.000        0.058   deg    rectangular            ∞      0.08670        0.0050   59.7
-        ──────────────────────────────────────────────────────────────────────────────────────────────────
-        a_y         2.8679       0.0065  m/s^2  combined              98                     0.0065  100.0
-        sensitivity coefficients in m/s^2 per unit of the quantity, contributions in m/s^2
-        subtotals: angles 90.2 %, no group 9.8 %; type A 9.8 %, type B 90.2 %
+    Subtotals: angles 79.1 %, no group 20.9 %; type A 20.9 %, type B 79.1 %.
 
-        combined standard uncertainty  0.0065 m/s^2
-        effective degrees of freedom   98
-        coverage factor                1.98 for 95 %
-        expanded uncertainty           0.013 m/s^2
+    result                           value  unit
+    ───────────────────────────────────────────────────────
+    combined standard uncertainty   0.0077  m/s^2
+    effective degrees of freedom   21
+    coverage factor                 2.08           for 95 %
+    expanded uncertainty            0.016   m/s^2
 
-                                               GUM  Monte Carlo       numerical
-                                                                 standard error
-        ───────────────────────────────────────────────────────────────────────
-        estimate                            2.8679       2.8679         0.00005
-        standard uncertainty                0.0065       0.0070         -
-        median                              -            2.8679         0.00007
-        coverage interval, symmetric: from  2.8550       2.8548         0.0001
-                                      to    2.8807       2.8812         0.0001
-        coverage interval, shortest:  from  -            2.8545         0.0003
-                                      to    -            2.8810         0.0002
-        skewness                            -           -0.04           -
-        excess kurtosis                     -            -              -
+    figure                                 GUM  Monte Carlo       numerical
+                                                             standard error
+    ───────────────────────────────────────────────────────────────────────
+    estimate                            4.9673       4.9673         0.00006
+    standard uncertainty                0.0077       0.0090         -
+    median                              -            4.9673         0.00007
+    coverage interval, symmetric: from  4.9513       4.9496         0.0002
+    coverage interval, symmetric: to    4.9833       4.9850         0.0001
+    coverage interval, shortest: from   -            4.9500         0.0004
+    coverage interval, shortest: to     -            4.9853         0.0002
+    skewness                            -           -0.13           -
+    excess kurtosis                     -            -              -
 
-        JCGM 101, clause 8: the GUM interval is not valid here: its ends lie d_low = 0.0003 and d_high =
-        0.0005 m/s^2 from the Monte Carlo ones, beyond the numerical tolerance 0.00005 m/s^2 (2 digits).
-        Take the symmetric Monte Carlo interval.
+    a_y in m/s^2: Acceleration along the sensor's y axis, RMS.
+    ──────────────────────────────────────────────────────────
 
-        a_z in m/s^2: Acceleration along the sensor's z axis, RMS.
-        ══════════════════════════════════════════════════════════
+    a_y = 2.8679 m/s^2; coverage interval from 2.8548 to 2.8812 m/s^2 (Monte Carlo, probabilistically
+    symmetric), coverage probability 95 %
+    JCGM 101, clause 8: the GUM interval is not valid here: its ends lie d_low = 0.0003 and d_high =
+    0.0005 m/s^2 from the Monte Carlo ones, beyond the numerical tolerance 0.00005 m/s^2 (2 digits).
+    Take the symmetric Monte Carlo interval.
 
-        quantity  estimate     standard  unit   distribution         dof  sensitivity  contribution  share
-                            uncertainty                                   coefficient                 in %
-        ──────────────────────────────────────────────────────────────────────────────────────────────────
-        a_ref      10.0000       0.0071  m/s^2  readings               4       0.8192        0.0058   57.2
-        tilt       35.000        0.050   deg    normal (drawn as t)   12      -0.1001        0.0050   42.8
-        rotation   30.000        0.058   deg    rectangular            ∞       0             0         0.0
-        ──────────────────────────────────────────────────────────────────────────────────────────────────
-        a_z         8.1915       0.0077  m/s^2  combined              10                     0.0077  100.0
-        sensitivity coefficients in m/s^2 per unit of the quantity, contributions in m/s^2
-        subtotals: angles 42.8 %, no group 57.2 %; type A 57.2 %, type B 42.8 %
+    quantity  estimate     standard  unit   distribution         dof  sensitivity  contribution  share
+                        uncertainty                                   coefficient                 in %
+    ──────────────────────────────────────────────────────────────────────────────────────────────────
+    a_ref      10.0000       0.0071  m/s^2  readings               4      0.2868         0.0020    9.8
+    tilt       35.000        0.050   deg    normal (drawn as t)   12      0.07148        0.0036   30.5
+    rotation   30.000        0.058   deg    rectangular            ∞      0.08670        0.0050   59.7
+    ──────────────────────────────────────────────────────────────────────────────────────────────────
+    a_y         2.8679       0.0065  m/s^2  combined              98                     0.0065  100.0
 
-        combined standard uncertainty  0.0077 m/s^2
-        effective degrees of freedom   10
-        coverage factor                2.23 for 95 %
-        expanded uncertainty           0.017 m/s^2
+    Sensitivity coefficients in m/s^2 per unit of the quantity, contributions in m/s^2.
 
-                                               GUM  Monte Carlo       numerical
-                                                                 standard error
-        ───────────────────────────────────────────────────────────────────────
-        estimate                            8.1915        8.191         0.00007
-        standard uncertainty                0.0077        0.010         -
-        median                              -             8.192         0.00007
-        coverage interval, symmetric: from  8.1745        8.172         0.0002
-                                      to    8.2086        8.211         0.0002
-        coverage interval, shortest:  from  -             8.173         0.0003
-                                      to    -             8.212         0.0007
-        skewness                            -            -0.70          -
-        excess kurtosis                     -             -             -
+    Subtotals: angles 90.2 %, no group 9.8 %; type A 9.8 %, type B 90.2 %.
 
-        JCGM 101, clause 8: the GUM interval is not valid here: its ends lie d_low = 0.0023 and d_high =
-        0.0023 m/s^2 from the Monte Carlo ones, beyond the numerical tolerance 0.00005 m/s^2 (2 digits).
-        Take the symmetric Monte Carlo interval.
+    result                           value  unit
+    ───────────────────────────────────────────────────────
+    combined standard uncertainty   0.0065  m/s^2
+    effective degrees of freedom   98
+    coverage factor                 1.98           for 95 %
+    expanded uncertainty            0.013   m/s^2
 
-        correlation    a_y    a_z
-        ─────────────────────────
-        a_x          0.430  0.066
-        a_y                 0.040
-        ");
+    figure                                 GUM  Monte Carlo       numerical
+                                                             standard error
+    ───────────────────────────────────────────────────────────────────────
+    estimate                            2.8679       2.8679         0.00005
+    standard uncertainty                0.0065       0.0070         -
+    median                              -            2.8679         0.00007
+    coverage interval, symmetric: from  2.8550       2.8548         0.0001
+    coverage interval, symmetric: to    2.8807       2.8812         0.0001
+    coverage interval, shortest: from   -            2.8545         0.0003
+    coverage interval, shortest: to     -            2.8810         0.0002
+    skewness                            -           -0.04           -
+    excess kurtosis                     -            -              -
+
+    a_z in m/s^2: Acceleration along the sensor's z axis, RMS.
+    ──────────────────────────────────────────────────────────
+
+    a_z = 8.192 m/s^2; coverage interval from 8.172 to 8.211 m/s^2 (Monte Carlo, probabilistically
+    symmetric), coverage probability 95 %
+    JCGM 101, clause 8: the GUM interval is not valid here: its ends lie d_low = 0.0023 and d_high =
+    0.0023 m/s^2 from the Monte Carlo ones, beyond the numerical tolerance 0.00005 m/s^2 (2 digits).
+    Take the symmetric Monte Carlo interval.
+
+    quantity  estimate     standard  unit   distribution         dof  sensitivity  contribution  share
+                        uncertainty                                   coefficient                 in %
+    ──────────────────────────────────────────────────────────────────────────────────────────────────
+    a_ref      10.0000       0.0071  m/s^2  readings               4       0.8192        0.0058   57.2
+    tilt       35.000        0.050   deg    normal (drawn as t)   12      -0.1001        0.0050   42.8
+    rotation   30.000        0.058   deg    rectangular            ∞       0             0         0.0
+    ──────────────────────────────────────────────────────────────────────────────────────────────────
+    a_z         8.1915       0.0077  m/s^2  combined              10                     0.0077  100.0
+
+    Sensitivity coefficients in m/s^2 per unit of the quantity, contributions in m/s^2.
+
+    Subtotals: angles 42.8 %, no group 57.2 %; type A 57.2 %, type B 42.8 %.
+
+    result                           value  unit
+    ───────────────────────────────────────────────────────
+    combined standard uncertainty   0.0077  m/s^2
+    effective degrees of freedom   10
+    coverage factor                 2.23           for 95 %
+    expanded uncertainty            0.017   m/s^2
+
+    figure                                 GUM  Monte Carlo       numerical
+                                                             standard error
+    ───────────────────────────────────────────────────────────────────────
+    estimate                            8.1915        8.191         0.00007
+    standard uncertainty                0.0077        0.010         -
+    median                              -             8.192         0.00007
+    coverage interval, symmetric: from  8.1745        8.172         0.0002
+    coverage interval, symmetric: to    8.2086        8.211         0.0002
+    coverage interval, shortest: from   -             8.173         0.0003
+    coverage interval, shortest: to     -             8.212         0.0007
+    skewness                            -            -0.70          -
+    excess kurtosis                     -             -             -
+
+    Correlation of the outputs
+    ──────────────────────────
+
+    correlation    a_y    a_z
+    ─────────────────────────
+    a_x          0.430  0.066
+    a_y                 0.040
+
+    Quantities
+    ──────────
+
+    quantity  what it is
+    ─────────────────────────────────────────────────────────
+    a_ref     repeatability
+    tilt      Tilt angle of the plane against the horizontal.
+    rotation  Rotation angle of the sensor on the plane.
+
+    To repeat this
+    ──────────────
+
+    what                  value
+    ────────────────────────────────────
+    program               gumption 0.1.0
+    seed                  1
+    trials                20000
+    coverage probability  0.95
+    digits                2
+    model file, SHA-256   0123
+    data.csv, SHA-256     4567
+
+    The same program, files and seed give the same figures on any number of threads.
+    ");
 }
 
 #[test]
 fn correlated_inputs() {
     insta::assert_snapshot!(page(&only_z(Case::new(correlated(20_000)))), @"
     inclined-plane
+    ══════════════
+
     coverage probability 95 %; 20 000 Monte Carlo trials, seed 1
 
-    model inclined-plane: Prato, Mazzoleni, Schiavi (2020), equations (1)-(3); Chiominto et al. (2024),
-    equation (1)
-    a_x = abs(a_ref*sin(tilt)*cos(rotation))
-    a_y = abs(a_ref*sin(tilt)*sin(rotation))
-    a_z = abs(a_ref*cos(tilt))
+    Measurement model
+    ─────────────────
 
-    a_ref     Reference acceleration along the vertical, RMS.
-    tilt      Tilt angle of the plane against the horizontal.
-    rotation  Rotation angle of the sensor on the plane.
+    Model inclined-plane: Prato, Mazzoleni, Schiavi (2020), equations (1)-(3); Chiominto et al. (2024),
+    equation (1).
+
+    quantity  equation
+    ────────────────────────────────────────────
+    a_x       abs(a_ref*sin(tilt)*cos(rotation))
+    a_y       abs(a_ref*sin(tilt)*sin(rotation))
+    a_z       abs(a_ref*cos(tilt))
 
     a_z in m/s^2: Acceleration along the sensor's z axis, RMS.
-    ══════════════════════════════════════════════════════════
+    ──────────────────────────────────────────────────────────
+
+    a_z = (8.192 ± 0.032) m/s^2; k = 1.96, coverage probability 95 %
+    JCGM 101, clause 8: undecided whether the GUM interval is valid here: its ends lie d_low = 0.0005
+    and d_high = 0.0003 m/s^2 from the Monte Carlo ones, too near to the numerical tolerance 0.0005
+    m/s^2 (2 digits) for 20 000 trials to tell.
 
     quantity        estimate     standard  unit   distribution  dof  sensitivity  contribution  share
                               uncertainty                            coefficient                 in %
@@ -227,68 +322,123 @@ fn correlated_inputs() {
     r(a_ref, tilt)    -0.6                        correlation                                    37.0
     ─────────────────────────────────────────────────────────────────────────────────────────────────
     a_z                8.192        0.016  m/s^2  combined        ∞                     0.016   100.0
-    sensitivity coefficients in m/s^2 per unit of the quantity, contributions in m/s^2
 
-    combined standard uncertainty  0.016 m/s^2
+    Sensitivity coefficients in m/s^2 per unit of the quantity, contributions in m/s^2.
+
+    result                         value  unit
+    ─────────────────────────────────────────────────────
+    combined standard uncertainty  0.016  m/s^2
     effective degrees of freedom   ∞
-    coverage factor                1.96 for 95 %
-    expanded uncertainty           0.032 m/s^2
+    coverage factor                1.96          for 95 %
+    expanded uncertainty           0.032  m/s^2
 
-                                          GUM  Monte Carlo       numerical
+    figure                                GUM  Monte Carlo       numerical
                                                             standard error
     ──────────────────────────────────────────────────────────────────────
     estimate                            8.192        8.191         0.0001
     standard uncertainty                0.016        0.016         0.00008
     median                              -            8.191         0.0001
     coverage interval, symmetric: from  8.160        8.159         0.0003
-                                  to    8.223        8.223         0.0003
-    coverage interval, shortest:  from  -            8.159         0.0007
-                                  to    -            8.223         0.0009
+    coverage interval, symmetric: to    8.223        8.223         0.0003
+    coverage interval, shortest: from   -            8.159         0.0007
+    coverage interval, shortest: to     -            8.223         0.0009
     skewness                            -           -0.02          0.02
     excess kurtosis                     -            0.08          0.05
 
-    JCGM 101, clause 8: undecided whether the GUM interval is valid here: its ends lie d_low = 0.0005
-    and d_high = 0.0003 m/s^2 from the Monte Carlo ones, too near to the numerical tolerance 0.0005
-    m/s^2 (2 digits) for 20 000 trials to tell.
+    Quantities
+    ──────────
+
+    quantity  what it is
+    ─────────────────────────────────────────────────────────
+    a_ref     Reference acceleration along the vertical, RMS.
+    tilt      Tilt angle of the plane against the horizontal.
+    rotation  Rotation angle of the sensor on the plane.
+
+    To repeat this
+    ──────────────
+
+    what                  value
+    ────────────────────────────────────
+    program               gumption 0.1.0
+    seed                  1
+    trials                20000
+    coverage probability  0.95
+    digits                2
+    model file, SHA-256   0123
+    data.csv, SHA-256     4567
+
+    The same program, files and seed give the same figures on any number of threads.
     ");
 }
 
 #[test]
 fn by_gum_alone() {
-    insta::assert_snapshot!(page(&only_z(Case::new(plane_at(35.0, 0)))), @r"
-        inclined-plane
-        coverage probability 95 %
+    insta::assert_snapshot!(page(&only_z(Case::new(plane_at(35.0, 0)))), @"
+    inclined-plane
+    ══════════════
 
-        model inclined-plane: Prato, Mazzoleni, Schiavi (2020), equations (1)-(3); Chiominto et al. (2024),
-        equation (1)
-        a_x = abs(a_ref*sin(tilt)*cos(rotation))
-        a_y = abs(a_ref*sin(tilt)*sin(rotation))
-        a_z = abs(a_ref*cos(tilt))
+    coverage probability 95 %
 
-        a_ref     Reference acceleration along the vertical, RMS.
-        tilt      Tilt angle of the plane against the horizontal.
-        rotation  Rotation angle of the sensor on the plane.
+    Measurement model
+    ─────────────────
 
-        a_z in m/s^2: Acceleration along the sensor's z axis, RMS.
-        ══════════════════════════════════════════════════════════
+    Model inclined-plane: Prato, Mazzoleni, Schiavi (2020), equations (1)-(3); Chiominto et al. (2024),
+    equation (1).
 
-        quantity  estimate     standard  unit   distribution  dof  sensitivity  contribution  share
-                            uncertainty                            coefficient                 in %
-        ───────────────────────────────────────────────────────────────────────────────────────────
-        a_ref       10.000        0.010  m/s^2  normal          ∞       0.8192        0.0082   66.8
-        tilt        35.000        0.058  deg    rectangular     ∞      -0.1001        0.0058   33.2
-        rotation     0            0      deg    constant        ∞       0             0         0.0
-        ───────────────────────────────────────────────────────────────────────────────────────────
-        a_z          8.192        0.010  m/s^2  combined        ∞                     0.010   100.0
-        sensitivity coefficients in m/s^2 per unit of the quantity, contributions in m/s^2
+    quantity  equation
+    ────────────────────────────────────────────
+    a_x       abs(a_ref*sin(tilt)*cos(rotation))
+    a_y       abs(a_ref*sin(tilt)*sin(rotation))
+    a_z       abs(a_ref*cos(tilt))
 
-        combined standard uncertainty  0.010 m/s^2
-        effective degrees of freedom   ∞
-        coverage factor                1.96 for 95 %
-        expanded uncertainty           0.020 m/s^2
+    a_z in m/s^2: Acceleration along the sensor's z axis, RMS.
+    ──────────────────────────────────────────────────────────
 
-        coverage interval from 8.172 to 8.211 m/s^2, by GUM alone
-        ");
+    a_z = (8.192 ± 0.020) m/s^2; k = 1.96, coverage probability 95 %
+    Coverage interval from 8.172 to 8.211 m/s^2, by GUM alone.
+
+    quantity  estimate     standard  unit   distribution  dof  sensitivity  contribution  share
+                        uncertainty                            coefficient                 in %
+    ───────────────────────────────────────────────────────────────────────────────────────────
+    a_ref       10.000        0.010  m/s^2  normal          ∞       0.8192        0.0082   66.8
+    tilt        35.000        0.058  deg    rectangular     ∞      -0.1001        0.0058   33.2
+    rotation     0            0      deg    constant        ∞       0             0         0.0
+    ───────────────────────────────────────────────────────────────────────────────────────────
+    a_z          8.192        0.010  m/s^2  combined        ∞                     0.010   100.0
+
+    Sensitivity coefficients in m/s^2 per unit of the quantity, contributions in m/s^2.
+
+    result                         value  unit
+    ─────────────────────────────────────────────────────
+    combined standard uncertainty  0.010  m/s^2
+    effective degrees of freedom   ∞
+    coverage factor                1.96          for 95 %
+    expanded uncertainty           0.020  m/s^2
+
+    Quantities
+    ──────────
+
+    quantity  what it is
+    ─────────────────────────────────────────────────────────
+    a_ref     Reference acceleration along the vertical, RMS.
+    tilt      Tilt angle of the plane against the horizontal.
+    rotation  Rotation angle of the sensor on the plane.
+
+    To repeat this
+    ──────────────
+
+    what                  value
+    ────────────────────────────────────
+    program               gumption 0.1.0
+    seed                  1
+    trials                0
+    coverage probability  0.95
+    digits                2
+    model file, SHA-256   0123
+    data.csv, SHA-256     4567
+
+    The same program, files and seed give the same figures on any number of threads.
+    ");
 }
 
 #[test]
@@ -301,20 +451,30 @@ fn where_gum_is_not_valid() {
     case.evaluation = only_z(Case::new(task)).evaluation;
     insta::assert_snapshot!(page(&case), @"
     inclined-plane
+    ══════════════
+
     coverage probability 95 %; 100 000 Monte Carlo trials, seed 1
 
-    model inclined-plane: Prato, Mazzoleni, Schiavi (2020), equations (1)-(3); Chiominto et al. (2024),
-    equation (1)
-    a_x = abs(a_ref*sin(tilt)*cos(rotation))
-    a_y = abs(a_ref*sin(tilt)*sin(rotation))
-    a_z = abs(a_ref*cos(tilt))
+    Measurement model
+    ─────────────────
 
-    a_ref     Reference acceleration along the vertical, RMS.
-    tilt      Tilt angle of the plane against the horizontal.
-    rotation  Rotation angle of the sensor on the plane.
+    Model inclined-plane: Prato, Mazzoleni, Schiavi (2020), equations (1)-(3); Chiominto et al. (2024),
+    equation (1).
+
+    quantity  equation
+    ────────────────────────────────────────────
+    a_x       abs(a_ref*sin(tilt)*cos(rotation))
+    a_y       abs(a_ref*sin(tilt)*sin(rotation))
+    a_z       abs(a_ref*cos(tilt))
 
     a_z in m/s^2: Acceleration along the sensor's z axis, RMS.
-    ══════════════════════════════════════════════════════════
+    ──────────────────────────────────────────────────────────
+
+    a_z = 9.950 m/s^2; coverage interval from 9.854 to 10.010 m/s^2 (Monte Carlo, probabilistically
+    symmetric), coverage probability 95 %
+    JCGM 101, clause 8: the GUM interval is not valid here: its ends lie d_low = 0.13 and d_high =
+    0.0092 m/s^2 from the Monte Carlo ones, beyond the numerical tolerance 0.0005 m/s^2 (2 digits). Take
+    the symmetric Monte Carlo interval.
 
     quantity  estimate     standard  unit   distribution  dof  sensitivity  contribution  share
                         uncertainty                            coefficient                 in %
@@ -324,29 +484,52 @@ fn where_gum_is_not_valid() {
     rotation     0            0      deg    constant        ∞        0             0        0.0
     ───────────────────────────────────────────────────────────────────────────────────────────
     a_z         10.000        0.010  m/s^2  combined        ∞                      0.010  100.0
-    sensitivity coefficients in m/s^2 per unit of the quantity, contributions in m/s^2
 
-    combined standard uncertainty  0.010 m/s^2
+    Sensitivity coefficients in m/s^2 per unit of the quantity, contributions in m/s^2.
+
+    result                         value  unit
+    ─────────────────────────────────────────────────────
+    combined standard uncertainty  0.010  m/s^2
     effective degrees of freedom   ∞
-    coverage factor                1.96 for 95 %
-    expanded uncertainty           0.020 m/s^2
+    coverage factor                1.96          for 95 %
+    expanded uncertainty           0.020  m/s^2
 
-                                           GUM  Monte Carlo       numerical
+    figure                                 GUM  Monte Carlo       numerical
                                                              standard error
     ───────────────────────────────────────────────────────────────────────
     estimate                            10.000        9.950         0.0001
     standard uncertainty                 0.010        0.046         0.00008
     median                               -            9.962         0.0002
     coverage interval, symmetric: from   9.980        9.854         0.0002
-                                  to    10.020       10.010         0.0001
-    coverage interval, shortest:  from   -            9.857         0.0007
-                                  to     -           10.013         0.0006
+    coverage interval, symmetric: to    10.020       10.010         0.0001
+    coverage interval, shortest: from    -            9.857         0.0007
+    coverage interval, shortest: to      -           10.013         0.0006
     skewness                             -           -0.60          0.004
     excess kurtosis                      -           -0.78          0.008
 
-    JCGM 101, clause 8: the GUM interval is not valid here: its ends lie d_low = 0.13 and d_high =
-    0.0092 m/s^2 from the Monte Carlo ones, beyond the numerical tolerance 0.0005 m/s^2 (2 digits). Take
-    the symmetric Monte Carlo interval.
+    Quantities
+    ──────────
+
+    quantity  what it is
+    ─────────────────────────────────────────────────────────
+    a_ref     Reference acceleration along the vertical, RMS.
+    tilt      Tilt angle of the plane against the horizontal.
+    rotation  Rotation angle of the sensor on the plane.
+
+    To repeat this
+    ──────────────
+
+    what                  value
+    ────────────────────────────────────
+    program               gumption 0.1.0
+    seed                  1
+    trials                100000
+    coverage probability  0.95
+    digits                2
+    model file, SHA-256   0123
+    data.csv, SHA-256     4567
+
+    The same program, files and seed give the same figures on any number of threads.
     ");
 }
 
@@ -358,40 +541,70 @@ fn no_gum_interval() {
     case.evaluation.stopped = true;
     insta::assert_snapshot!(page(&case), @"
     inclined-plane
+    ══════════════
+
     coverage probability 95 %; 10 000 Monte Carlo trials, seed 1, as it was stopped; 10 000 were asked
     for
+    stopped after 10 000 trials
 
-    model inclined-plane: Prato, Mazzoleni, Schiavi (2020), equations (1)-(3); Chiominto et al. (2024),
-    equation (1)
-    a_x = abs(a_ref*sin(tilt)*cos(rotation))
-    a_y = abs(a_ref*sin(tilt)*sin(rotation))
-    a_z = abs(a_ref*cos(tilt))
+    Measurement model
+    ─────────────────
 
-    a_ref     Reference acceleration along the vertical, RMS.
-    tilt      Tilt angle of the plane against the horizontal.
-    rotation  Rotation angle of the sensor on the plane.
+    Model inclined-plane: Prato, Mazzoleni, Schiavi (2020), equations (1)-(3); Chiominto et al. (2024),
+    equation (1).
+
+    quantity  equation
+    ────────────────────────────────────────────
+    a_x       abs(a_ref*sin(tilt)*cos(rotation))
+    a_y       abs(a_ref*sin(tilt)*sin(rotation))
+    a_z       abs(a_ref*cos(tilt))
 
     a_z in m/s^2: Acceleration along the sensor's z axis, RMS.
-    ══════════════════════════════════════════════════════════
+    ──────────────────────────────────────────────────────────
+
+    a_z = 8.191 m/s^2; coverage interval from 8.172 to 8.211 m/s^2 (Monte Carlo, probabilistically
+    symmetric), coverage probability 95 %
+    JCGM 101, clause 8: there is no GUM interval to compare; take the Monte Carlo one.
 
     There is no budget: the estimate or a sensitivity coefficient is not finite here.
 
-                                        GUM  Monte Carlo       numerical
+    figure                              GUM  Monte Carlo       numerical
                                                           standard error
     ────────────────────────────────────────────────────────────────────
     estimate                              -        8.191         0.0001
     standard uncertainty                  -        0.010         0.00007
     median                                -        8.192         0.0001
     coverage interval, symmetric: from    -        8.172         0.0002
-                                  to      -        8.211         0.0002
-    coverage interval, shortest:  from    -        8.172         0.0003
-                                  to      -        8.212         0.0003
+    coverage interval, symmetric: to      -        8.211         0.0002
+    coverage interval, shortest: from     -        8.172         0.0003
+    coverage interval, shortest: to       -        8.212         0.0003
     skewness                              -       -0.02          0.02
     excess kurtosis                       -       -0.14          0.05
 
-    JCGM 101, clause 8: there is no GUM interval to compare; take the Monte Carlo one.
+    Quantities
+    ──────────
 
-    stopped after 10 000 trials
+    quantity  what it is
+    ─────────────────────────────────────────────────────────
+    a_ref     Reference acceleration along the vertical, RMS.
+    tilt      Tilt angle of the plane against the horizontal.
+    rotation  Rotation angle of the sensor on the plane.
+
+    To repeat this
+    ──────────────
+
+    what                  value
+    ─────────────────────────────────────────────────
+    program               gumption 0.1.0
+    seed                  1
+    trials                10000
+    coverage probability  0.95
+    digits                2
+    model file, SHA-256   0123
+    this run              stopped after 10 000 trials
+    data.csv, SHA-256     4567
+
+    The same program, files and seed give the same figures on any number of threads.
     ");
 }
 
@@ -402,13 +615,13 @@ fn undefined_degrees_of_freedom() {
     let gum = output.gum.as_mut().unwrap();
     (gum.dof, gum.coverage_factor, output.validation) = (Dof::Undefined, None, None);
     let page = page(&case);
-    for line in [
-        "effective degrees of freedom   undefined",
-        "coverage factor                not defined for these degrees of freedom",
-        "expanded uncertainty           not defined",
+    for said in [
+        "effective degrees of freedom undefined",
+        "coverage factor not defined for these degrees of freedom",
+        "expanded uncertainty not defined",
         "JCGM 101, clause 8: there is no GUM interval to compare; take the Monte Carlo one.",
     ] {
-        assert!(page.lines().any(|found| found == line), "{line}\n{page}");
+        assert!(page.lines().any(|found| words(found) == said), "{said}\n{page}");
     }
     let gum = &case.json()["outputs"]["a_z"]["gum"];
     assert_eq!(gum["dof_status"], "undefined");
@@ -418,82 +631,128 @@ fn undefined_degrees_of_freedom() {
 }
 
 #[test]
-fn digits_are_those_of_the_settings_unless_given() {
+fn digits_are_those_of_the_settings() {
     let mut case = only_z(Case::new(plane_at(35.0, 0)));
     case.evaluation.settings.digits = 3;
-    assert!(page(&case).contains("standard uncertainty  0.0100 m/s^2"));
-    let page = table(&case.report(), &TableStyle { digits: Some(1), ..TableStyle::default() });
-    assert!(page.contains("standard uncertainty  0.01 m/s^2"), "{page}");
+    assert!(words(&page(&case)).contains("standard uncertainty 0.0100 m/s^2"));
+    case.evaluation.settings.digits = 1;
+    assert!(words(&page(&case)).contains("standard uncertainty 0.01 m/s^2"));
 }
 
 #[test]
 fn a_sweep_is_one_table_for_each_output() {
-    insta::assert_snapshot!(page(&sweep(&[0.0, 15.0, 45.0, 90.0], 20_000)), @r"
-        inclined-plane
-        coverage probability 95 %; 20 000 Monte Carlo trials for each row, seed 1
+    insta::assert_snapshot!(page(&sweep(&[0.0, 15.0, 45.0, 90.0], 20_000)), @"
+    inclined-plane
+    ══════════════
 
-        model inclined-plane: Prato, Mazzoleni, Schiavi (2020), equations (1)-(3); Chiominto et al. (2024),
-        equation (1)
-        a_x = abs(a_ref*sin(tilt)*cos(rotation))
-        a_y = abs(a_ref*sin(tilt)*sin(rotation))
-        a_z = abs(a_ref*cos(tilt))
+    coverage probability 95 %; 20 000 Monte Carlo trials for each row, seed 1
 
-        a_ref     Reference acceleration along the vertical, RMS.
-        tilt      Tilt angle of the plane against the horizontal.
-        rotation  Rotation angle of the sensor on the plane.
+    Measurement model
+    ─────────────────
 
-        at f = 80 Hz
+    Model inclined-plane: Prato, Mazzoleni, Schiavi (2020), equations (1)-(3); Chiominto et al. (2024),
+    equation (1).
 
-        a_x in m/s^2: Acceleration along the sensor's x axis, RMS.
-        ══════════════════════════════════════════════════════════
+    quantity  equation
+    ────────────────────────────────────────────
+    a_x       abs(a_ref*sin(tilt)*cos(rotation))
+    a_y       abs(a_ref*sin(tilt)*sin(rotation))
+    a_z       abs(a_ref*cos(tilt))
 
-          tilt  estimate     standard     expanded     k  Monte Carlo interval  GUM
-        in deg            uncertainty  uncertainty        (symmetric) from, to  interval
-        ─────────────────────────────────────────────────────────────────────────────────
-             0     0            0            0      1.96  0.0004   0.0170       not valid
-            15     2.588        0.010        0.020  1.96  2.571    2.606        not valid
-            45     7.071        0.010        0.020  1.96  7.052    7.090        undecided
-            90    10.000        0.010        0.020  1.96  9.980   10.020        undecided
+    a_x in m/s^2: Acceleration along the sensor's x axis, RMS.
+    ──────────────────────────────────────────────────────────
 
-        The coverage interval to be taken is that of the Monte Carlo method, and not estimate ± U, in rows
-        1, 2.
+        f    tilt  estimate     standard     expanded     k  Monte Carlo       to  GUM
+    in Hz  in deg            uncertainty  uncertainty               from           interval
+    ────────────────────────────────────────────────────────────────────────────────────────
+       80       0     0            0            0      1.96       0.0004   0.0170  not valid
+       80      15     2.588        0.010        0.020  1.96       2.571    2.606   not valid
+       80      45     7.071        0.010        0.020  1.96       7.052    7.090   undecided
+       80      90    10.000        0.010        0.020  1.96       9.980   10.020   undecided
 
-        a_y in m/s^2: Acceleration along the sensor's y axis, RMS.
-        ══════════════════════════════════════════════════════════
+    The coverage interval to be taken is that of the Monte Carlo method, and not estimate ± U, in rows
+    1, 2.
 
-          tilt  estimate     standard     expanded     k  Monte Carlo interval  GUM
-        in deg            uncertainty  uncertainty        (symmetric) from, to  interval
-        ────────────────────────────────────────────────────────────────────────────────
-             0         0            0            0  1.96  0  0                  valid
-            15         0            0            0  1.96  0  0                  valid
-            45         0            0            0  1.96  0  0                  valid
-            90         0            0            0  1.96  0  0                  valid
+    Shares of the variance in %:
 
-        a_z in m/s^2: Acceleration along the sensor's z axis, RMS.
-        ══════════════════════════════════════════════════════════
+        f    tilt  a_ref  tilt
+    in Hz  in deg
+    ──────────────────────────
+       80       0    0.0   0.0
+       80      15    6.6  93.4
+       80      45   49.6  50.4
+       80      90  100.0   0.0
 
-          tilt  estimate     standard     expanded     k  Monte Carlo interval  GUM
-        in deg            uncertainty  uncertainty        (symmetric) from, to  interval
-        ─────────────────────────────────────────────────────────────────────────────────
-             0    10.000        0.010        0.020  1.96  9.980   10.020        undecided
-            15     9.659        0.010        0.020  1.96  9.639    9.679        undecided
-            45     7.071        0.010        0.020  1.96  7.052    7.090        undecided
-            90     0.000        0.010        0.020  1.96  0.0004   0.0170       not valid
+    a_y in m/s^2: Acceleration along the sensor's y axis, RMS.
+    ──────────────────────────────────────────────────────────
 
-        The coverage interval to be taken is that of the Monte Carlo method, and not estimate ± U, in row 4.
+        f    tilt  estimate     standard     expanded     k  Monte Carlo  to  GUM
+    in Hz  in deg            uncertainty  uncertainty               from      interval
+    ──────────────────────────────────────────────────────────────────────────────────
+       80       0         0            0            0  1.96            0   0  valid
+       80      15         0            0            0  1.96            0   0  valid
+       80      45         0            0            0  1.96            0   0  valid
+       80      90         0            0            0  1.96            0   0  valid
 
-        Budgets, shortest intervals, numerical standard errors and correlations of every row: --format json.
-        ");
+    a_z in m/s^2: Acceleration along the sensor's z axis, RMS.
+    ──────────────────────────────────────────────────────────
+
+        f    tilt  estimate     standard     expanded     k  Monte Carlo       to  GUM
+    in Hz  in deg            uncertainty  uncertainty               from           interval
+    ────────────────────────────────────────────────────────────────────────────────────────
+       80       0    10.000        0.010        0.020  1.96       9.980   10.020   undecided
+       80      15     9.659        0.010        0.020  1.96       9.639    9.679   undecided
+       80      45     7.071        0.010        0.020  1.96       7.052    7.090   undecided
+       80      90     0.000        0.010        0.020  1.96       0.0004   0.0170  not valid
+
+    The coverage interval to be taken is that of the Monte Carlo method, and not estimate ± U, in row 4.
+
+    Shares of the variance in %:
+
+        f    tilt  a_ref   tilt
+    in Hz  in deg
+    ───────────────────────────
+       80       0  100.0    0.0
+       80      15   93.2    6.8
+       80      45   49.6   50.4
+       80      90    0.0  100.0
+
+    Budgets, shortest intervals, numerical standard errors and correlations of every row: --format json.
+
+    Quantities
+    ──────────
+
+    quantity  what it is
+    ─────────────────────────────────────────────────────────
+    a_ref     Reference acceleration along the vertical, RMS.
+    tilt      Tilt angle of the plane against the horizontal.
+    rotation  Rotation angle of the sensor on the plane.
+
+    To repeat this
+    ──────────────
+
+    what                  value
+    ────────────────────────────────────
+    program               gumption 0.1.0
+    seed                  1
+    trials                20000
+    coverage probability  0.95
+    digits                2
+    model file, SHA-256   0123
+    data.csv, SHA-256     4567
+
+    The same program, files and seed give the same figures on any number of threads.
+    ");
 }
 
 #[test]
 fn a_coverage_factor_is_named_as_people_name_it() {
     let mut task = plane_at(35.0, 0);
     task.settings.coverage = Coverage::Factor { factor: 2.0, fixed: false };
-    assert!(page(&Case::new(task)).contains("2.00 for approximately 95 %"));
+    assert!(words(&page(&Case::new(task))).contains("factor 2.00 for approximately 95 %"));
     let mut task = plane_at(35.0, 0);
     task.settings.coverage = Coverage::Factor { factor: 3.0, fixed: true };
-    assert!(page(&Case::new(task)).contains("3.00 for 99.73 %"));
+    assert!(words(&page(&Case::new(task))).contains("factor 3.00 for 99.73 %, fixed"));
 }
 
 #[test]
@@ -530,10 +789,10 @@ fn endless_texts_are_cut() {
         for output in &mut case.task.model.outputs {
             output.quantity.about.clone_from(&text);
         }
-        let style = TableStyle { columns: BudgetColumn::ALL.to_vec(), ..TableStyle::default() };
-        let page = table(&case.report(), &style);
+        let shown = Shown { columns: &BudgetColumn::ALL, ..Shown::default() };
+        let page = table(&case.report(), &shown);
         assert!(page.lines().all(|line| line.chars().count() <= 100), "{page}");
-        let title: Vec<&str> = page.lines().take_while(|line| !line.contains("coverage")).collect();
+        let title: Vec<&str> = page.lines().take_while(|line| !line.contains('═')).collect();
         assert!((20..=21).contains(&title.len()), "{title:?}");
         assert!(title.last().is_some_and(|line| line.ends_with('…')), "{title:?}");
         assert_eq!(case.json()["title"], text);
@@ -559,8 +818,9 @@ fn many_conditions(tilts: &[f64]) -> Case {
 fn rows_are_named_by_what_tells_them_apart() {
     let case = many_conditions(&[0.0, 15.0]);
     let page = page(&case);
-    assert!(page.contains("12 more conditions of every row: --format csv."), "{page}");
-    assert!(page.contains("\n  tilt  estimate ") && !page.contains("condition_3"), "{page}");
+    let (answers, conditions) = page.split_once("All conditions of the rows").expect("all of them");
+    assert!(answers.contains("\n  tilt  estimate ") && !answers.contains("condition_3"), "{page}");
+    assert!(conditions.contains("\n  tilt ") && conditions.contains("condition_3"), "{page}");
     let found = gumption_engine::propagate::naming(&case.evaluation.rows);
     assert_eq!(found, [1]);
 }
@@ -570,7 +830,9 @@ fn many_conditions_are_numbered() {
     // two rows are alike, so that nothing tells all apart
     let case = many_conditions(&[0.0, 15.0, 0.0]);
     let page = page(&case);
-    assert!(page.contains("row  conditions"), "{page}");
+    let (answers, conditions) = page.split_once("All conditions of the rows").expect("all of them");
+    assert!(answers.contains("\nrow  estimate ") && !answers.contains("condition_3"), "{page}");
+    assert!(conditions.contains("\nrow ") && conditions.contains("condition_3"), "{page}");
 }
 
 /// Pages for terminals: no line is longer than the terminal is wide, and every word is one of those
@@ -584,7 +846,7 @@ fn nothing_breaks_in_mid_word_from_60_columns_up() {
     ];
     for case in &cases {
         let page = |columns: usize| {
-            crate::within_width(columns, || table(&case.report(), &TableStyle::default()))
+            crate::within_width(columns, || table(&case.report(), &Shown::default()))
         };
         let words = |page: &str| -> std::collections::BTreeSet<String> {
             let words = page.split_whitespace().filter(|word| !word.contains(['─', '═']));

@@ -2,7 +2,7 @@ use std::fmt::Write;
 use std::path::Path;
 
 use super::super::difference;
-use gumption_analysis::integrity;
+use crate::result::seal;
 use gumption_engine::propagate::Control;
 
 use crate::{ModelOrResult, read_result, read_text};
@@ -52,8 +52,8 @@ impl Made<'_> {
         // with its digest the figures need not be consistent
         let mut file: serde_json::Map<String, serde_json::Value> =
             serde_json::from_str(&text).unwrap();
-        let digest = integrity::digest(&file);
-        file.insert(integrity::DIGEST.to_owned(), digest.into());
+        let digest = seal::digest(&file);
+        file.insert(seal::DIGEST.to_owned(), digest.into());
         let text = serde_json::Value::Object(file).to_string();
         ModelOrResult::Result(read_result("r.json", &text).unwrap())
     }

@@ -7,7 +7,7 @@ use serde_json::{Value, json};
 use super::{schema, validator};
 use crate as file;
 use crate::read_result;
-use gumption_analysis::integrity;
+use crate::result::seal;
 use gumption_engine::distribution::Scores;
 use gumption_engine::propagate::{Control, evaluate, linear, origins, quantiles_and_ranks};
 use gumption_report::{EvaluationReport, Provenance, saved};
@@ -44,10 +44,10 @@ fn written() -> Value {
 fn sealed(file: &Value) -> String {
     let mut file = file.clone();
     if let Value::Object(content) = &mut file
-        && content.get(integrity::DIGEST).is_some_and(Value::is_string)
+        && content.get(seal::DIGEST).is_some_and(Value::is_string)
     {
-        let digest = integrity::digest(content);
-        content.insert(integrity::DIGEST.to_owned(), digest.into());
+        let digest = seal::digest(content);
+        content.insert(seal::DIGEST.to_owned(), digest.into());
     }
     file.to_string()
 }

@@ -102,7 +102,7 @@ fn block(block: &Block, units: &mut unit::Declared) -> String {
             format!("\\begin{{itemize}}\n{}\n\\end{{itemize}}", items.join("\n"))
         }
         Block::Table(sheet) => table(sheet, units),
-        Block::Figure(_) => String::new(),
+        Block::Figure(_) | Block::Characters(_) => String::new(),
         Block::Folded(title, blocks) => {
             let blocks: Vec<String> = blocks.iter().map(|part| self::block(part, units)).collect();
             format!("{}:\n\n{}", escaped(title), blocks.join("\n\n"))

@@ -77,7 +77,7 @@ fn write(report: &EvaluationReport<'_>, shown: &Shown<'_>) -> Result<Vec<u8>, Xl
         book.push(leaf)?;
     }
     if let [row] = report.evaluation.rows.as_slice()
-        && let Some(Coefficients::Matrix { sheet, .. }) = correlations::found(task, row)
+        && let Some(Coefficients::Matrix(sheet)) = correlations::found(task, row)
     {
         let mut leaf = book.leaf("Correlations")?;
         leaf.title(0, "Correlation of the outputs")?;
@@ -139,6 +139,7 @@ fn worksheet(
             Block::Table(sheet) => row = leaf.table(row + 1, sheet)? + 1,
             // what is folded on a page stands on other worksheets, and an evaluation has one language
             Block::Figure(_)
+            | Block::Characters(_)
             | Block::InLanguage(..)
             | Block::Folded(..)
             | Block::Listing { .. }

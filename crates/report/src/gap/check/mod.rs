@@ -2,14 +2,12 @@
 
 mod confusion;
 mod design;
-mod html;
 mod label;
 mod matrix;
+mod page;
 mod reliability;
 mod sheets;
-mod table;
 mod words;
 
 pub use design::CheckedDesign;
-pub use html::html;
-pub use table::table;
+pub use page::{html, table};

@@ -9,8 +9,6 @@ mod shares;
 mod shrinkage;
 mod where_map;
 
-use maud::{Markup, html};
-
 pub(super) use bars::draw as bars;
 pub(super) use intervals::draw as intervals;
 pub(super) use overlay::draw as overlay;
@@ -21,36 +19,11 @@ pub(super) use shrinkage::draw as shrinkage;
 pub(super) use where_map::draw as where_map;
 
 pub(crate) use crate::html::Drawing;
-use crate::{Provenance, document, plain};
+use crate::{Provenance, document};
 use gumption_gap::Diagnosis;
 
 /// The diagnosis as one HTML file with figures that needs nothing else: it loads nothing and runs
 /// nothing, reads in light and dark and prints on A4.
 pub fn html(diagnosis: &Diagnosis, provenance: &Provenance) -> String {
-    document::html(&super::page::document(diagnosis, provenance))
-}
-
-/// Everything that is needed to get the same answer again; `settings` are those of the command, with
-/// their names.
-pub(super) fn repeat(settings: &[(&str, String)], provenance: &Provenance) -> Markup {
-    html! {
-        div.table {
-            table {
-                tbody {
-                    tr { td { "program" } td { "gumption " (env!("CARGO_PKG_VERSION")) } }
-                    @for (name, value) in settings {
-                        tr { td { (name) } td { (value) } }
-                    }
-                    tr {
-                        td { "case file, SHA-256" }
-                        td { code { (provenance.model_sha256) } }
-                    }
-                    @for (name, digest) in &provenance.files {
-                        tr { td { (plain(name)) ", SHA-256" } td { code { (digest) } } }
-                    }
-                }
-            }
-        }
-        p { "The same program, files and seed give the same figures on any number of threads." }
-    }
+    document::html(&super::page::document(diagnosis, provenance, false))
 }

@@ -1,10 +1,10 @@
 //! A departure that no candidate makes, in words and in JSON.
 
-use super::{diagnosis, json, unexplained, with_something_beside};
+use super::{diagnosis, json, provenance, unexplained, with_something_beside};
 
 #[test]
 fn a_departure_is_told_in_words() {
-    let page = crate::gap::table(&unexplained()).replace('\n', " ");
+    let page = crate::gap::table(&unexplained(), &provenance()).replace('\n', " ");
     for wanted in [
         "What the departure looks like",
         "With probability 0.912: a_x departs by what is a share of its sim, stepping down over f near \
@@ -14,7 +14,9 @@ fn a_departure_is_told_in_words() {
     ] {
         assert!(page.contains(wanted), "{wanted}\n{page}");
     }
-    assert!(!crate::gap::table(&diagnosis()).contains("What the departure looks like"));
+    assert!(
+        !crate::gap::table(&diagnosis(), &provenance()).contains("What the departure looks like")
+    );
 }
 
 #[test]
@@ -34,7 +36,7 @@ fn a_departure_is_in_the_answer() {
 
 #[test]
 fn what_is_left_beside_the_effects_is_in_the_headline() {
-    let page = crate::gap::table(&with_something_beside()).replace('\n', " ");
+    let page = crate::gap::table(&with_something_beside(), &provenance()).replace('\n', " ");
     for wanted in [
         "There is a gap: low-pass and delay are there (probability 0.988) and make 97 % of it; something \
          else is left beside them (probability 0.977, 2 % of the gap): a_x and ratio depart by what is \

@@ -4,7 +4,7 @@ use super::super::table;
 use super::*;
 
 fn page(diagnosis: &Diagnosis) -> String {
-    let page = table(diagnosis);
+    let page = table(diagnosis, &provenance());
     let widest = page.lines().map(|line| line.chars().count()).max().unwrap_or(0);
     assert!(widest <= 100, "{widest} columns:\n{page}");
     assert!(page.lines().all(|line| !line.ends_with(' ')), "{page}");
@@ -31,7 +31,7 @@ fn numbers_are_those_of_the_json() {
     assert_agreement(&answer, &cells);
     let running = page.split_whitespace().collect::<Vec<_>>().join(" ");
     assert_sentences(&answer, &running);
-    assert!(page.contains("\na_x in m/s^2\n    f    tilt  corrected "), "{page}");
+    assert!(page.contains("\na_x in m/s^2:\n\n    f    tilt  corrected "), "{page}");
     // what was not measured has no mean
     assert!(page.contains("\n  400      35  1561           13       1580         -\n"), "{page}");
 }
@@ -131,7 +131,7 @@ fn a_fraction_is_not_above_what_the_noise_allows() {
     let mut below = diagnosis();
     below.shrinkage.values = 20;
     below.shrinkage.all.removed_fraction = 1.0;
-    let page = table(&below);
+    let page = table(&below, &provenance());
     // 2 sqrt(2/20) 1.053^2/(4.489^2 - 1.053^2) = 0.0368
     let line = page.lines().find(|line| line.starts_with("rms residual, all outputs")).unwrap();
     assert!(line.trim_end().ends_with(">0.96"), "{line}");

@@ -13,7 +13,7 @@ const SCRIPT: &str = include_str!("script.js");
 /// Its digest in the form of a Content-Security-Policy: `script-src 'sha256-...'`. A server with
 /// its own policy adds it there.
 pub fn interactive_script_digest() -> String {
-    let hex = gumption_analysis::integrity::sha256(SCRIPT.as_bytes());
+    let hex = gumption_text::bytes::sha256(SCRIPT.as_bytes());
     let bytes: Vec<u8> = (0..hex.len() / 2)
         .filter_map(|place| u8::from_str_radix(hex.get(2 * place..2 * place + 2)?, 16).ok())
         .collect();
@@ -61,7 +61,7 @@ mod tests {
             assert!(!SCRIPT.contains(word), "{word}");
         }
         // digest of the empty text, from FIPS 180-4's published example without bytes
-        let empty = gumption_analysis::integrity::sha256(b"");
+        let empty = gumption_text::bytes::sha256(b"");
         assert!(empty.starts_with("e3b0c44298fc1c14"));
         assert_eq!(interactive_script_digest().len(), "sha256-".len() + 44);
     }

@@ -40,14 +40,14 @@ fn region(columns: &[Vec<f64>]) -> Result<SmallestRegion, String> {
     }
     packed::cholesky(&mut root, 0.0).unwrap();
     let place = |trial: usize| {
-        let mut place = Place::default();
+        let mut place = TrialPlace::default();
         for (at, of) in place.iter_mut().zip(&deviations) {
             *at = of[trial];
         }
         packed::solve(&root, &mut place[..columns.len()]);
         place
     };
-    let places: Vec<Place> = (0..columns[0].len()).map(place).collect();
+    let places: Vec<TrialPlace> = (0..columns[0].len()).map(place).collect();
     smallest(&places, &root, 0.95)
 }
 

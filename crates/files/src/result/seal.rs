@@ -6,19 +6,38 @@
 //! determined; the whole digest covers them too.
 
 use serde_json::{Map, Value};
-use sha2::{Digest, Sha256};
+
+use super::form::ResultForm;
+use gumption_text::bytes::sha256;
 
 /// The key of the digest of everything else in the file.
-pub const DIGEST: &str = "sha256";
+pub(crate) const DIGEST: &str = "sha256";
 
 /// The key of the digests of its parts.
-pub const PARTS: &str = "sha256_of_parts";
+const PARTS: &str = "sha256_of_parts";
 
 /// Hexadecimal digits of a part's digest.
 const SHORT: usize = 16;
 
+impl ResultForm {
+    /// The same with the digests of what it says, of numbers as they will be read.
+    ///
+    /// # Errors
+    /// None that can happen: all keys are texts.
+    pub fn sealed(mut self) -> serde_json::Result<Self> {
+        (self.sha256_of_parts, self.sha256) = (Vec::new(), None);
+        let Value::Object(mut content) = serde_json::to_value(&self)? else { return Ok(self) };
+        self.sha256_of_parts = parts(&content);
+        let listed = self.sha256_of_parts.iter();
+        let listed = listed.map(|(name, of)| (name.clone(), Value::from(of.as_str())));
+        content.insert(PARTS.to_owned(), Value::Object(listed.collect()));
+        self.sha256 = Some(digest(&content));
+        Ok(self)
+    }
+}
+
 /// The digest of an object without its own digest, in hexadecimal.
-pub fn digest(content: &Map<String, Value>) -> String {
+pub(crate) fn digest(content: &Map<String, Value>) -> String {
     let mut canonical = String::new();
     object(content.iter().filter(|(key, _)| *key != DIGEST).collect(), &mut canonical);
     sha256(canonical.as_bytes())
@@ -26,7 +45,7 @@ pub fn digest(content: &Map<String, Value>) -> String {
 
 /// The parts of a saved result with their digests, each named by its keys separated by `/`: every
 /// key of the root, every key of each entry of `outputs`, and each entry of `inputs`.
-pub fn parts(content: &Map<String, Value>) -> Vec<(String, String)> {
+fn parts(content: &Map<String, Value>) -> Vec<(String, String)> {
     let mut all = Vec::new();
     let mut add = |name: String, value: &Value| {
         let mut canonical = String::new();
@@ -59,7 +78,7 @@ pub fn parts(content: &Map<String, Value>) -> Vec<(String, String)> {
 }
 
 /// The parts whose digests do not match: changed, missing, or new.
-pub fn changed(content: &Map<String, Value>) -> Vec<String> {
+pub(super) fn changed(content: &Map<String, Value>) -> Vec<String> {
     let Some(Value::Object(stated)) = content.get(PARTS) else { return Vec::new() };
     let found = parts(content);
     let differs = |(name, digest): &&(String, String)| {
@@ -70,11 +89,6 @@ pub fn changed(content: &Map<String, Value>) -> Vec<String> {
     let gone = stated.keys().filter(|name| !found.iter().any(|(other, _)| other == *name));
     names.extend(gone.cloned());
     names
-}
-
-/// The SHA-256 digest of bytes (FIPS 180-4), 64 hexadecimal digits.
-pub fn sha256(bytes: &[u8]) -> String {
-    Sha256::digest(bytes).iter().map(|byte| format!("{byte:02x}")).collect()
 }
 
 /// A value as canonical text: keys in the order of their characters, numbers by their values.

@@ -6,7 +6,7 @@
 
 use std::sync::Arc;
 
-use super::result_file::SavedOutput;
+use super::reader::SavedOutput;
 use gumption_engine::distribution::{
     Distribution, Origin, Root, RootCorrelation, RootName, SavedResult,
 };
