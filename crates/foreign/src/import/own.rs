@@ -137,8 +137,8 @@ impl OwnBudgetReader<'_> {
         row: usize,
         cells: &[String],
     ) -> Option<[Option<f64>; 3]> {
-        let of = self.known(variable, row)?;
-        let before = [of.mean(), of.standard_uncertainty(), of.dof()];
+        let known = self.known(variable, row)?;
+        let before = [known.mean(), known.standard_uncertainty(), known.dof()];
         let mut now = [None; 3];
         for ((place, before), now) in [1, 2, 5].into_iter().zip(before).zip(&mut now) {
             let cell = cells.get(place).map_or("", |cell| cell.trim());
@@ -161,7 +161,7 @@ impl OwnBudgetReader<'_> {
 
     /// Writes changed values of an input, or of a component, into the model.
     fn input(&mut self, variable: usize, [estimate, std, dof]: [Option<f64>; 3]) {
-        let Some(of) = self.known(variable, 0).cloned() else { return };
+        let Some(known) = self.known(variable, 0).cloned() else { return };
         let name = self.task.variables[variable].name.clone();
         let unit = self.task.variables[variable].unit.text().trim().to_owned();
         let Some(object) = place(&mut self.root, &name) else {
@@ -170,9 +170,9 @@ impl OwnBudgetReader<'_> {
         };
         let shown = |value: f64| Shortest(value).to_string();
         let whole = [
-            ("estimate", estimate, of.mean()),
-            ("standard uncertainty", std, of.standard_uncertainty()),
-            ("degrees of freedom", dof, of.dof()),
+            ("estimate", estimate, known.mean()),
+            ("standard uncertainty", std, known.standard_uncertainty()),
+            ("degrees of freedom", dof, known.dof()),
         ];
         for (what, now, before) in whole {
             self.changed.extend(now.map(|now| {
@@ -180,7 +180,7 @@ impl OwnBudgetReader<'_> {
             }));
         }
         let kept = estimate.is_none_or(|value| moved(object, value))
-            && std.is_none_or(|value| widened(object, value, &of))
+            && std.is_none_or(|value| widened(object, value, &known))
             && dof.is_none_or(|value| with_dof(object, value));
         if kept {
             return;
@@ -193,9 +193,9 @@ impl OwnBudgetReader<'_> {
             normal.entry("unit").or_insert_with(|| json!(unit));
         }
         normal.insert("distribution".to_owned(), json!("normal"));
-        normal.insert("mean".to_owned(), json!(estimate.unwrap_or(of.mean())));
-        normal.insert("std".to_owned(), json!(std.unwrap_or(of.standard_uncertainty())));
-        let dof = dof.unwrap_or(of.dof());
+        normal.insert("mean".to_owned(), json!(estimate.unwrap_or(known.mean())));
+        normal.insert("std".to_owned(), json!(std.unwrap_or(known.standard_uncertainty())));
+        let dof = dof.unwrap_or(known.dof());
         if dof.is_finite() {
             normal.insert("dof".to_owned(), json!(dof));
         }
@@ -204,7 +204,7 @@ impl OwnBudgetReader<'_> {
         }
         self.replaced.push(format!(
             "`{name}` is normal now: what it was ({}) does not go with the changed cells",
-            of.name()
+            known.name()
         ));
         *object = normal;
     }
