@@ -314,11 +314,13 @@ fn from_table(object: &Object<'_>, file: &Member, folder: Folder<'_>) -> Option<
             Quantity { name: name.to_owned(), unit, about: String::new() }
         })
         .collect();
-    for (column, of) in quantities.iter().enumerate() {
-        if let Some(first) = quantities[..column].iter().position(|other| other.name == of.name) {
+    for (column, quantity) in quantities.iter().enumerate() {
+        if let Some(first) =
+            quantities[..column].iter().position(|other| other.name == quantity.name)
+        {
             let [a, b] = [first, column].map(|place| &table.columns[place]);
             let reason =
-                format!("the columns `{a}` and `{b}` both are the condition `{}`", of.name);
+                format!("the columns `{a}` and `{b}` both are the condition `{}`", quantity.name);
             log.report(&file.value.span, DiagnosticKind::Table { reason });
             return None;
         }

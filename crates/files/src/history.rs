@@ -338,17 +338,19 @@ pub(super) fn add(
     let place = named.map_or(0..0, |named| named.place.clone());
     let mut added: Vec<(History, Quantity)> = Vec::new();
     for history in found {
-        let of = history.of.map(|condition| &conditions.quantities[condition]);
+        let of_condition = history.of.map(|condition| &conditions.quantities[condition]);
         let of_clock = |(name, _): &(&str, Unit)| is_name(name) && !taken(name);
         let name = match (history.kind, &heading) {
             (HistoryKind::Order, Some(heading)) if of_clock(heading) => heading.0.to_owned(),
-            _ => history.kind.name(of.map_or("", |condition| condition.name.as_str())),
+            _ => history.kind.name(of_condition.map_or("", |condition| condition.name.as_str())),
         };
         if taken(&name) {
             continue;
         }
-        let unit = match (history.kind, of) {
-            (HistoryKind::Previous | HistoryKind::Extreme, Some(of)) => of.unit.clone(),
+        let unit = match (history.kind, of_condition) {
+            (HistoryKind::Previous | HistoryKind::Extreme, Some(of_condition)) => {
+                of_condition.unit.clone()
+            }
             (HistoryKind::Since | HistoryKind::Order, _) => clock.clone(),
             _ => Unit::one(),
         };

@@ -198,39 +198,41 @@ impl<'a> ModelReader<'a> {
         let body = self.body(&simulated, &fits.curves);
         let results = ResultFiles::new(self.folder, self.options.files).with_curves(&fits.curves);
         let trials = self.options.files.trials(settings.trials);
-        let mut of = self.quantities(conditions, check_units, &body, &results, &fits, trials)?;
+        let mut quantities =
+            self.quantities(conditions, check_units, &body, &results, &fits, trials)?;
 
-        let mut files = std::mem::take(&mut of.conditions.files);
+        let mut files = std::mem::take(&mut quantities.conditions.files);
         if let Some(observations) = &mut observations {
             files.append(&mut observations.files);
         }
-        files.extend(of.inputs.files.iter().cloned());
+        files.extend(quantities.inputs.files.iter().cloned());
         files.extend(results.files.take());
         files.append(&mut results.certificates.borrow_mut().files);
         files.extend(fits.files);
         let joint = Fits::default();
-        let (correlations, notes) = self.correlations(&of, &mut files, &joint, trials);
-        let mut warnings = of.inputs.warnings.clone();
+        let (correlations, notes) = self.correlations(&quantities, &mut files, &joint, trials);
+        let mut warnings = quantities.inputs.warnings.clone();
         warnings.extend(fits.warnings);
         warnings.extend(notes);
         warnings.extend(results.warnings.take());
         let body = body?;
         let statement = body.statement();
-        let sim = self.sim(body, &mut of, &mut warnings, &mut files)?;
+        let sim = self.sim(body, &mut quantities, &mut warnings, &mut files)?;
         let regions = regions::read(root, &sim.outputs);
         if !root.log.is_clean() {
             return None;
         }
         let observed = self.observed(observations.as_ref(), &sim)?;
-        let are_swept = !of.conditions.quantities.is_empty();
-        occasions::tell(&mut of.inputs, &files, self.options.overrides, are_swept);
+        let are_swept = !quantities.conditions.quantities.is_empty();
+        occasions::tell(&mut quantities.inputs, &files, self.options.overrides, are_swept);
 
-        let reachable = std::mem::take(&mut of.conditions.reachable);
-        let history = (of.conditions.measured..).zip(std::mem::take(&mut of.conditions.history));
-        let (history, clock) = (history.collect(), of.conditions.clock);
+        let reachable = std::mem::take(&mut quantities.conditions.reachable);
+        let history = (quantities.conditions.measured..)
+            .zip(std::mem::take(&mut quantities.conditions.history));
+        let (history, clock) = (history.collect(), quantities.conditions.clock);
         let swept = root.get("conditions").is_some() || observations.is_some();
-        let output_places = std::mem::take(&mut of.outputs.places);
-        let evidence = std::mem::take(&mut of.inputs.evidence);
+        let output_places = std::mem::take(&mut quantities.outputs.places);
+        let evidence = std::mem::take(&mut quantities.inputs.evidence);
         let model = sim.model().map_err(|error| {
             root.report(DiagnosticKind::Evaluation { message: error.to_string() });
         });
@@ -238,7 +240,7 @@ impl<'a> ModelReader<'a> {
         let fits = joint;
         let parts =
             TaskParts { title, source, statement, settings, fits, swept, correlations, curves };
-        let mut task = task(parts, model.ok()?, of)?;
+        let mut task = task(parts, model.ok()?, quantities)?;
         task.regions = regions;
         warnings.extend(fits::extrapolation::notes(root.log, &sim, &task, &task.curves));
         warnings.extend(counted_twice::notes(&task));
@@ -246,7 +248,7 @@ impl<'a> ModelReader<'a> {
         let file = ModelFile { task, warnings, source, files, output_places, evidence };
         let simulated = simulated.len();
         let (data, replication) = match observations {
-            Some(of) => (Some(of.table), of.replication.map(|(name, _)| name)),
+            Some(observed) => (Some(observed.table), observed.replication.map(|(name, _)| name)),
             None => (None, None),
         };
         Some(FoundModel {
@@ -360,17 +362,20 @@ impl<'a> ModelReader<'a> {
             root.required("outputs").and_then(|member| outputs::read(log, member, results, &set));
         let (mut inputs, outputs) = (inputs?, outputs.unwrap_or_default());
         fits.add_to(log, &mut inputs);
-        let of = Quantities { inputs, conditions, outputs, check_units };
-        check_names(root, &of, body);
-        let rows = of.conditions.rows.len();
-        let size =
-            Size { rows, outputs: of.outputs.outputs.len(), variables: of.inputs.variables.len() };
+        let quantities = Quantities { inputs, conditions, outputs, check_units };
+        check_names(root, &quantities, body);
+        let rows = quantities.conditions.rows.len();
+        let size = Size {
+            rows,
+            outputs: quantities.outputs.outputs.len(),
+            variables: quantities.inputs.variables.len(),
+        };
         if let (Some(diagnostic), Some(member)) = (size.excess(), root.get("outputs")) {
             log.report(&member.key_span, diagnostic);
             return None;
         }
         // without the names of the conditions nothing can be said about formulas
-        (!of.conditions.unreadable).then_some(of)
+        (!quantities.conditions.unreadable).then_some(quantities)
     }
 
     fn correlations(

@@ -163,8 +163,8 @@ fn diagnosed(
     let rows = rows.into_iter().step_by(step).collect();
     let hypotheses = hypotheses(&setup, &posterior, probability);
     let predicted = at.map(|at| {
-        let of = prediction(&setup, &discrepancy, &posterior, &compositions, at);
-        let (mut rows, partly_defined) = of;
+        let predicted = prediction(&setup, &discrepancy, &posterior, &compositions, at);
+        let (mut rows, partly_defined) = predicted;
         enlarge(&mut rows, &weighed_noise.shared(&setup, &variances));
         (rows, partly_defined)
     });

@@ -35,8 +35,8 @@ pub(crate) fn conflicts(
             let priors = candidates.flat_map(|candidate| {
                 candidate.priors.iter().map(|prior| (&candidate.effect, prior))
             });
-            let of = parameters(&weighing.setup, &hypothesis, coverage);
-            for (parameter, (effect, prior)) in of.into_iter().zip(priors) {
+            let estimated = parameters(&weighing.setup, &hypothesis, coverage);
+            for (parameter, (effect, prior)) in estimated.into_iter().zip(priors) {
                 let (prior_distance, bounded) = distance(prior, parameter.estimate);
                 if prior_distance > if bounded { 0.0 } else { FAR } {
                     found.push(PriorConflict {

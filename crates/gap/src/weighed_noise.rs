@@ -68,32 +68,32 @@ pub(crate) struct WeighedSettings {
 
 impl WeighedNoise {
     pub(crate) fn of(weighings: &[Weighing<'_>]) -> Self {
-        let mut of = Self::default();
+        let mut weighed = Self::default();
         let outputs = weighings.first().map_or(0, |w| w.setup.data.outputs.len());
         for output in 0..outputs {
             if let Some((probability, draws)) = joined(weighings, |w| factor(w, output)) {
-                of.factors.push(WeighedFactor { output, probability, draws });
+                weighed.factors.push(WeighedFactor { output, probability, draws });
             }
             for other in output + 1..outputs {
                 let found = joined(weighings, |w| correlation(w, [output, other]));
                 if let Some((probability, draws)) = found {
                     let outputs = [output, other];
-                    of.correlations.push(WeighedCorrelation { outputs, probability, draws });
+                    weighed.correlations.push(WeighedCorrelation { outputs, probability, draws });
                 }
             }
         }
-        of.serial = serial(weighings);
-        of.settings = settings(weighings);
+        weighed.serial = serial(weighings);
+        weighed.settings = settings(weighings);
         for weighing in weighings {
             for &suspect in &weighing.setup.data.noise.suspects {
                 let Suspect { id, output, .. } = suspect;
-                match of.suspects.iter_mut().find(|(known, ..)| known.is_of(id, output)) {
+                match weighed.suspects.iter_mut().find(|(known, ..)| known.is_of(id, output)) {
                     Some((_, known)) => *known = (*known + weighing.probability).min(1.0),
-                    None => of.suspects.push((suspect, weighing.probability)),
+                    None => weighed.suspects.push((suspect, weighing.probability)),
                 }
             }
         }
-        of
+        weighed
     }
 
     /// For each output the expected variance of noise that neighbouring rows or those of a setting

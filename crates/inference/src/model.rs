@@ -454,8 +454,8 @@ fn with_complex<'r>(
     form: NumberForm,
 ) -> HashMap<String, Value<'r>> {
     let radians = |name: &str, phase: Traced<'r>| {
-        let of = inputs.iter().find(|input| input.quantity.name == name);
-        let declared = of.filter(|_| form == NumberForm::Declared);
+        let input = inputs.iter().find(|input| input.quantity.name == name);
+        let declared = input.filter(|_| form == NumberForm::Declared);
         declared.map_or(phase, |output| NumberForm::Coherent.taken(phase, &output.quantity.unit))
     };
     let mut values: HashMap<String, Value<'r>> = HashMap::new();

@@ -131,9 +131,10 @@ fn of_each(candidate: &Candidate, group: &str, values: &[f64]) -> Option<(Candid
     let (spread, unit_normal) = (spread.ok()?, Normal::new(0.0, 1.0).ok()?);
     // names that nothing else has
     let taken = |name: &str| {
-        let of = &candidate.effect;
-        let formulas = of.overrides.iter().flat_map(|(_, formula)| formula.names());
-        of.parameters.iter().any(|p| p.name == name) || formulas.into_iter().any(|(n, _)| n == name)
+        let effect = &candidate.effect;
+        let formulas = effect.overrides.iter().flat_map(|(_, formula)| formula.names());
+        effect.parameters.iter().any(|p| p.name == name)
+            || formulas.into_iter().any(|(n, _)| n == name)
     };
     let free = |stem: String| {
         let mut name = stem;

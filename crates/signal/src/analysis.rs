@@ -225,14 +225,14 @@ impl ChannelGroup<'_> {
                 residuals.known = Some(known);
             }
         }
-        for (number, of) in fundamentals.iter_mut().enumerate() {
-            if let Some(residuals) = left.get(lead).filter(|_| of.of_estimate > 0.0) {
-                of.of_estimate *= noise_near(&design, residuals, number);
-                if !of.is_stated {
+        for (number, estimated) in fundamentals.iter_mut().enumerate() {
+            if let Some(residuals) = left.get(lead).filter(|_| estimated.of_estimate > 0.0) {
+                estimated.of_estimate *= noise_near(&design, residuals, number);
+                if !estimated.is_stated {
                     let rate = base.rate;
-                    let of_rate = of.hertz.value * rate.standard_uncertainty / rate.value;
-                    of.hertz.standard_uncertainty =
-                        elementary::hypot(of.of_estimate * rate.value, of_rate);
+                    let of_rate = estimated.hertz.value * rate.standard_uncertainty / rate.value;
+                    estimated.hertz.standard_uncertainty =
+                        elementary::hypot(estimated.of_estimate * rate.value, of_rate);
                 }
             }
         }
@@ -322,18 +322,18 @@ impl ChannelGroup<'_> {
             let left = residuals::of(&design, passes, &mut fits).map_err(Refused::Unreadable)?;
             let Some(residuals) = left.get(lead) else { return Ok((design, fits, left)) };
             let mut again = false;
-            for (number, of) in fundamentals.iter_mut().enumerate() {
+            for (number, tuned) in fundamentals.iter_mut().enumerate() {
                 if !may_move[number] {
                     continue;
                 }
                 let Some((step, variance)) = residuals.cycles.get(number).copied() else {
                     continue;
                 };
-                if again_estimated(of) {
+                if again_estimated(tuned) {
                     let most = 0.25 / samples as f64;
                     let step = if variance.is_finite() { step.clamp(-most, most) } else { 0.0 };
-                    of.move_to(of.turning + step, variance);
-                    of.hertz.value = of.turning * self.base.rate.value;
+                    tuned.move_to(tuned.turning + step, variance);
+                    tuned.hertz.value = tuned.turning * self.base.rate.value;
                     may_move[number] = moves < MOST_MOVES && step.abs() * samples as f64 > SETTLED;
                     again |= may_move[number];
                     continue;
@@ -341,21 +341,21 @@ impl ChannelGroup<'_> {
                 let stated = as_stated[number];
                 let within = within(&stated);
                 let white = (variance * residuals.variance).sqrt();
-                let off = of.turning + step - stated.turning;
+                let off = tuned.turning + step - stated.turning;
                 let told = 3.0 * white < within && off.abs() < 5.0 * within;
                 if told && moves < MOST_MOVES && step.abs() * samples as f64 > SETTLED {
-                    of.move_to(of.turning + step, variance);
+                    tuned.move_to(tuned.turning + step, variance);
                     again = true;
                     continue;
                 }
                 // noise near the oscillation is known when nothing of it is left there
                 let own = variance.sqrt() * noise_near(&design, residuals, number);
                 if told && 3.0 * own < within {
-                    of.move_to(of.turning, variance);
+                    tuned.move_to(tuned.turning, variance);
                 } else {
                     may_move[number] = false;
-                    again |= of.turning != stated.turning;
-                    *of = stated;
+                    again |= tuned.turning != stated.turning;
+                    *tuned = stated;
                 }
             }
             moves += 1;
@@ -373,16 +373,17 @@ impl ChannelGroup<'_> {
     ) -> Result<Vec<Analysed>, Refused<E>> {
         let (channel, place) = self.lead();
         let mut fundamentals = self.fundamentals(&mut held.unfailing())?;
-        let (Some(of), Some(values)) = (fundamentals.first_mut(), held.channels.get(place)) else {
+        let (Some(first), Some(values)) = (fundamentals.first_mut(), held.channels.get(place))
+        else {
             return Ok(Vec::new());
         };
-        let Some(part) = whole_periods(values, of.cycles) else {
-            let (periods, hertz) = (of.cycles * values.len() as f64, of.hertz.value);
+        let Some(part) = whole_periods(values, first.cycles) else {
+            let (periods, hertz) = (first.cycles * values.len() as f64, first.hertz.value);
             return Err(Refused::LessThanOnePeriod { channel, hertz, periods });
         };
         let bin = f64::from(part.periods) / part.samples as f64;
-        of.of_cut = (of.cycles - bin).abs();
-        of.cycles = bin;
+        first.of_cut = (first.cycles - bin).abs();
+        first.cycles = bin;
         for values in &mut held.channels {
             *values = values.get(part.first..part.first + part.samples).unwrap_or(&[]).to_vec();
         }

@@ -280,16 +280,17 @@ impl ChannelGroup<'_> {
             let left = super::residuals::remainders(&design, passes, &mut fits)
                 .map_err(Refused::Unreadable)?;
             let mut largest = 0.0_f64;
-            for (number, of) in all.iter_mut().enumerate() {
+            for (number, oscillation) in all.iter_mut().enumerate() {
                 let (step, deviation) = step(&left, fundamentals.len() + number);
-                of.deviation = deviation;
+                oscillation.deviation = deviation;
                 let place = design.tones.iter().position(|tone| {
                     tone.beside && tone.fundamental == fundamentals.len() + number
                 });
-                of.clear = place.map_or(0.0, |tone| clearness(&design, &fits, &left, tone));
+                oscillation.clear =
+                    place.map_or(0.0, |tone| clearness(&design, &fits, &left, tone));
                 let most = LARGEST_STEP / samples as f64;
                 let step = if step.is_finite() { step.clamp(-most, most) } else { 0.0 };
-                of.cycles += step;
+                oscillation.cycles += step;
                 largest = largest.max(step.abs() * samples as f64);
             }
             if all.iter().any(|oscillation| !(oscillation.cycles > 0.0 && oscillation.cycles < 0.5))
@@ -358,10 +359,11 @@ fn candidates(of: &FittedTones, samples: u64, known: &[f64]) -> Vec<f64> {
     let mut found: Vec<(f64, f64, u32)> = Vec::new();
     for residuals in left {
         let deviation = residuals.variance.sqrt();
-        for of in spurious::lines(&residuals.first) {
-            let may_be_rounding = residuals.lattice.is_some_and(|step| of.amplitude < step);
+        for oscillation in spurious::lines(&residuals.first) {
+            let may_be_rounding =
+                residuals.lattice.is_some_and(|step| oscillation.amplitude < step);
             let most = if may_be_rounding { ROUNDING } else { DISTORTION };
-            found.push((of.amplitude / deviation, of.cycles, most));
+            found.push((oscillation.amplitude / deviation, oscillation.cycles, most));
         }
     }
     largest_first(&mut found, |a| a.0);
@@ -434,9 +436,9 @@ fn keep_apart(all: &mut Vec<UnnamedOscillation>, named: &[f64], samples: u64) {
         alone && beside && oscillation.deviation * samples < APART / 4.0
     });
     let mut kept: Vec<UnnamedOscillation> = Vec::new();
-    for of in all.drain(..) {
-        if kept.iter().all(|other| (of.cycles - other.cycles).abs() * samples >= APART) {
-            kept.push(of);
+    for oscillation in all.drain(..) {
+        if kept.iter().all(|other| (oscillation.cycles - other.cycles).abs() * samples >= APART) {
+            kept.push(oscillation);
         }
     }
     *all = kept;

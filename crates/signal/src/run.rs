@@ -98,16 +98,16 @@ fn row<P: SampleSource>(
         track += 1;
     }
     let mut of_steps: Vec<ChannelNote> = Vec::new();
-    for of in stepped {
-        let channels = [(of.channel, 0)];
-        let (base, clock) = (of.base, of.clock);
-        let through = of.through.as_ref();
+    for stepped in stepped {
+        let channels = [(stepped.channel, 0)];
+        let (base, clock) = (stepped.base, stepped.clock);
+        let through = stepped.through.as_ref();
         let channels = &channels;
         let group =
             ChannelGroup { settings, frequencies, base, track, clock, channels, through, traced };
-        analysed.extend(group.analyse(&mut of.held.unfailing())?);
-        findings.extend(of.findings.into_iter().map(|finding| (of.channel, finding)));
-        of_steps.extend(of.notes);
+        analysed.extend(group.analyse(&mut stepped.held.unfailing())?);
+        findings.extend(stepped.findings.into_iter().map(|finding| (stepped.channel, finding)));
+        of_steps.extend(stepped.notes);
         track += 1;
     }
     smallest_first(&mut analysed, |analysed| analysed.channel as f64);

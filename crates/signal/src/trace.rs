@@ -140,10 +140,10 @@ pub(super) fn traces<E>(
     let mut gathered: Vec<Gathered> = channels.iter().map(new).collect();
     let fits: Vec<ToneCoefficients> =
         channels.iter().map(|(_, fit)| design.at_first(fit)).collect();
-    for (of, fit) in gathered.iter_mut().zip(&fits) {
+    for (gathered, fit) in gathered.iter_mut().zip(&fits) {
         let last = shown.saturating_sub(1) as f64;
         let instants = (0..=TRACE_COLUMNS).map(|place| last * place as f64 / TRACE_COLUMNS as f64);
-        of.trace.fit = instants.map(|instant| at(design, fit, instant)).collect();
+        gathered.trace.fit = instants.map(|instant| at(design, fit, instant)).collect();
     }
     design.each(passes, |first, blocks, waves| {
         for ((of, fit), values) in gathered.iter_mut().zip(&fits).zip(blocks) {

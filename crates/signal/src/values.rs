@@ -289,12 +289,12 @@ fn offset(settings: &RecipeSettings, analysed: &Analysed, noise_dof: f64) -> Bud
         (UncertaintySource::Scale, value.abs() * scale),
     ];
     // a fit at another frequency than the oscillation's takes some of it for a constant
-    for (number, of) in analysed.fundamentals.iter().enumerate() {
+    for (number, tone) in analysed.fundamentals.iter().enumerate() {
         let slope = analysed.design.slope(&analysed.fit, number).offset.abs();
-        let tuned = hypot(of.of_stated, of.of_estimate);
+        let tuned = hypot(tone.of_stated, tone.of_estimate);
         join(&mut parts, UncertaintySource::Frequency, slope * tuned);
-        join(&mut parts, UncertaintySource::SamplingRate, slope * of.of_rate);
-        join(&mut parts, UncertaintySource::Leakage, slope * of.of_cut);
+        join(&mut parts, UncertaintySource::SamplingRate, slope * tone.of_rate);
+        join(&mut parts, UncertaintySource::Leakage, slope * tone.of_cut);
     }
     // a level that drifts is at none of its values for long
     if analysed.design.drift > 0 {
@@ -303,11 +303,12 @@ fn offset(settings: &RecipeSettings, analysed: &Analysed, noise_dof: f64) -> Bud
     // of an oscillation that is not fitted the mean over the record has a part, whatever its phase
     let samples = analysed.design.samples as f64;
     let unfitted = residuals.known.as_ref().map_or(&analysed.spurious, |known| &known.unfitted);
-    for of in unfitted
+    for oscillation in unfitted
         .iter()
         .filter(|oscillation| !oscillation.fitted && oscillation.cycles * samples > 3.0)
     {
-        let mean = of.amplitude / (2.0 * samples * sin_cos_turn(of.cycles / 2.0).0);
+        let mean =
+            oscillation.amplitude / (2.0 * samples * sin_cos_turn(oscillation.cycles / 2.0).0);
         join(&mut parts, UncertaintySource::Leakage, mean);
     }
     BudgetedValue::new(value, parts, noise_dof)

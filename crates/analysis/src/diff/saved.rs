@@ -142,9 +142,10 @@ impl Pair<'_> {
     /// is zero for all outputs, on both sides.
     fn may_act(&self, input: &Matched) -> bool {
         (0..2).all(|side| {
-            let of = self.sides[side];
+            let own_side = self.sides[side];
             input.indices[side].is_none_or(|index| {
-                of.is_own(index) && of.outputs.iter().all(|output| output.sensitivity(index) == 0.0)
+                own_side.is_own(index)
+                    && own_side.outputs.iter().all(|output| output.sensitivity(index) == 0.0)
             })
         })
     }

@@ -142,10 +142,10 @@ pub(super) fn cheapest(budget: &TrialBudget<'_>, costs: &Costs) -> Result<Cheape
     let mut best: Option<Solution> = None;
     for number in 0..combinations {
         let (mut rest, mut taken, mut cost) = (number, Changes::new(), 0.0);
-        for (variable, of) in &offers {
-            let choice = rest % (of.len() + 1);
-            rest /= of.len() + 1;
-            if let Some(offer) = choice.checked_sub(1).and_then(|choice| of.get(choice)) {
+        for (variable, choices) in &offers {
+            let choice = rest % (choices.len() + 1);
+            rest /= choices.len() + 1;
+            if let Some(offer) = choice.checked_sub(1).and_then(|choice| choices.get(choice)) {
                 taken.push((*variable, Change::Width(offer.standard_uncertainty)));
                 cost += offer.cost;
             }
@@ -215,13 +215,13 @@ impl Problem<'_> {
         let mut upper = None;
         for number in 0..=combinations {
             let (mut rest, mut fixed, mut cost) = (number, taken.clone(), 0.0);
-            for (of, &middle) in self.counted.iter().zip(&middle) {
+            for (counted, &middle) in self.counted.iter().zip(&middle) {
                 // the last attempt rounds all of them up
                 let step = if number == combinations { below + 1 } else { (rest % width) as u64 };
                 rest /= width;
-                let whole = (middle + step).saturating_sub(below).clamp(of.now, of.most);
-                fixed.push((of.variable, Change::Readings(whole as f64)));
-                cost += of.each * (whole - of.now) as f64;
+                let whole = (middle + step).saturating_sub(below).clamp(counted.now, counted.most);
+                fixed.push((counted.variable, Change::Readings(whole as f64)));
+                cost += counted.each * (whole - counted.now) as f64;
             }
             if number == combinations {
                 upper = Some(fixed.clone());
@@ -244,11 +244,11 @@ impl Problem<'_> {
     fn further(&self, taken: &Changes, mut fixed: Changes) -> Option<Solution> {
         for _ in 0..10_000 {
             let mut moved = false;
-            for of in &self.counted {
+            for counted in &self.counted {
                 for (variable, change) in fixed.iter_mut().skip(taken.len()) {
                     if let Change::Readings(count) = change
-                        && *variable == of.variable
-                        && *count < of.most as f64
+                        && *variable == counted.variable
+                        && *count < counted.most as f64
                     {
                         *count += 1.0;
                         moved = true;

@@ -114,8 +114,8 @@ impl Conformity {
         let global =
             inspection.as_ref().zip(accepted).map(|(inspection, to)| inspection.risks(to.ends()));
         let posterior = output.prior.as_deref().zip(u).map(|(prior, spread)| {
-            if let Some((gum, of)) = linear.zip(inspection.as_ref()) {
-                return (of.conformance(on_branch(gum.estimate)), 0.0);
+            if let Some((gum, inspection)) = linear.zip(inspection.as_ref()) {
+                return (inspection.conformance(on_branch(gum.estimate)), 0.0);
             }
             let at = |y: f64, u: f64| {
                 Inspection::new(prior, StudentLaw::normal(u), limits).conformance(y)

@@ -133,11 +133,12 @@ pub fn convergence(
     control: &Control<'_>,
 ) -> Result<Option<Vec<Vec<MonteCarlo>>>, EvaluationError> {
     let count = made(evaluation, row);
-    let (Some(of), Some(whole)) = (task.rows.get(row), evaluation.rows.get(row)) else {
+    let (Some(row_of_task), Some(whole)) = (task.rows.get(row), evaluation.rows.get(row)) else {
         return Ok(None);
     };
     let reaches = reach(&task.model.program, task.variables.len());
-    let moment_order = moment_orders(task, of, &reaches, &gum::evaluate(task, of));
+    let moment_order =
+        moment_orders(task, row_of_task, &reaches, &gum::evaluate(task, row_of_task));
     let probability = task.settings.coverage.probability();
     let request = Request { trials: count, probability, moment_order: &moment_order };
     in_pool(task, control, || {

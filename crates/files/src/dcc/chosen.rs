@@ -283,8 +283,8 @@ pub(super) fn is_one_table<'d>(
     }
     let mut places: HashMap<QuantityTable<'_>, usize> = HashMap::new();
     let mut tables: Vec<(Option<String>, Vec<usize>)> = Vec::new();
-    for (number, (node, of)) in chosen.iter().zip(measured).enumerate() {
-        let table = QuantityTable::of(*node, of, &beside);
+    for (number, (node, measured)) in chosen.iter().zip(measured).enumerate() {
+        let table = QuantityTable::of(*node, measured, &beside);
         let status = table.status.clone();
         let place = *places.entry(table).or_insert(tables.len());
         match tables.get_mut(place) {

@@ -24,8 +24,8 @@ pub(super) fn unit(element: Node<'_, '_>, written: &str) -> Result<Option<Unit>,
     for node in around(element) {
         let text = content_of(node);
         let fault = |reason: String| (node.range(), reason);
-        let Some(of) = Definition::read(&text, name) else { continue };
-        let next = match (of, &known) {
+        let Some(definition) = Definition::read(&text, name) else { continue };
+        let next = match (definition, &known) {
             (Ok(next), _) => next,
             // words about a unit that is known
             (Err(_), Some(_)) => continue,

@@ -34,8 +34,10 @@ pub(super) fn left_out<'d>(
     }
     let all: HashSet<NodeId> = intervals.values().flatten().map(|node| node.id()).collect();
     let mut others: HashMap<Option<NodeId>, Vec<&Measured>> = HashMap::new();
-    for (node, of) in chosen.iter().zip(&measured).filter(|(node, _)| !all.contains(&node.id())) {
-        others.entry(list(*node)).or_default().push(of);
+    for (node, measured) in
+        chosen.iter().zip(&measured).filter(|(node, _)| !all.contains(&node.id()))
+    {
+        others.entry(list(*node)).or_default().push(measured);
     }
     let repeats = |(node, measured): (&Node<'d, 'd>, &Measured)| {
         let beside = others.get(&list(*node)).filter(|_| all.contains(&node.id()));

@@ -30,9 +30,9 @@ pub(super) fn state(object: &Object<'_>, measured: &mut [Measured]) -> Result<bo
         object.log.report(&member.key_span, DiagnosticKind::Certificate { reason });
         return Ok(false);
     }
-    for of in measured {
-        let count = of.values.len();
-        let Some(stated) = &mut of.uncertainty else { continue };
+    for measured in measured {
+        let count = measured.values.len();
+        let Some(stated) = &mut measured.uncertainty else { continue };
         stated.distributions.resize(count, String::new());
         for called in &mut stated.distributions {
             let named = NamedShape::of(called).and_then(NamedShape::name);
@@ -41,7 +41,7 @@ pub(super) fn state(object: &Object<'_>, measured: &mut [Measured]) -> Result<bo
                     "the distribution of this quantity is called `{called}` ({named}), and the model file \
                      says `\"law\": \"{law}\"`: leave it out, or ask which is right"
                 );
-                return Err((of.span.clone(), reason));
+                return Err((measured.span.clone(), reason));
             }
             (*law).clone_into(called);
         }

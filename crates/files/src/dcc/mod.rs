@@ -241,13 +241,13 @@ fn parsed(
         }
     };
     let mut left = index;
-    for (node, of) in chosen.iter().zip(measured) {
-        if left < of.values.len() {
-            let lacking = QuantityRows::new(&all).lacking(*node, &of);
-            if let Some(fault) = lacking.and_then(|lacking| lacking.fault(&of, left)) {
+    for (node, measured) in chosen.iter().zip(measured) {
+        if left < measured.values.len() {
+            let lacking = QuantityRows::new(&all).lacking(*node, &measured);
+            if let Some(fault) = lacking.and_then(|lacking| lacking.fault(&measured, left)) {
                 return Err(fault);
             }
-            let is_without = !of.is_uncertain(left) && !missing::is_nominal(*node);
+            let is_without = !measured.is_uncertain(left) && !missing::is_nominal(*node);
             let certified = match is_without {
                 true => stated_elsewhere(own, source, &document, *node, left)?,
                 false => certified(own, source, &document, *node, left),
@@ -255,20 +255,20 @@ fn parsed(
             return Ok(Some(FromCertificate {
                 unit,
                 source: Arc::clone(source),
-                span: of.span.clone(),
+                span: measured.span.clone(),
                 place: format!("quantity {}, value {left}", number(&all, *node)),
                 certified,
-                of_interval: of.interval_taken(Some(left)).is_some(),
-                unknown_distribution: of.unknown_distribution(Some(left)),
+                of_interval: measured.interval_taken(Some(left)).is_some(),
+                unknown_distribution: measured.unknown_distribution(Some(left)),
                 is_without,
-                is_asymmetric: Interval::of(&of, left).is_some_and(Interval::is_asymmetric),
+                is_asymmetric: Interval::of(&measured, left).is_some_and(Interval::is_asymmetric),
                 is_difference,
                 is_before: standing::is_before(*node),
                 temperature,
-                taken: Taken::One(Box::new(of), left),
+                taken: Taken::One(Box::new(measured), left),
             }));
         }
-        left -= of.values.len();
+        left -= measured.values.len();
     }
     Ok(None)
 }
@@ -289,15 +289,15 @@ fn temperature(
 ) -> Result<TemperatureKind, Fault> {
     let stated = object.truth("difference");
     let mut found: Option<TemperatureKind> = None;
-    for (node, of) in chosen.iter().zip(measured) {
-        let kind = difference::kind(*node, of, stated)?;
+    for (node, measured) in chosen.iter().zip(measured) {
+        let kind = difference::kind(*node, measured, stated)?;
         let known = found.get_or_insert_with(|| kind.clone());
         let is_difference = |kind: &TemperatureKind| *kind == TemperatureKind::Difference;
         if is_difference(known) != is_difference(&kind) {
             let reason = "of this quantity and the first one of its kind one is a difference of \
                           temperatures by its `refType` or its name: say by `difference` what they are"
                 .to_owned();
-            return Err((of.span.clone(), reason));
+            return Err((measured.span.clone(), reason));
         }
         if matches!(known, TemperatureKind::Value | TemperatureKind::NearZero(_))
             && kind != TemperatureKind::Value
@@ -359,23 +359,25 @@ fn table<'d>(
     if parents.len() < chosen.len() {
         return Err(repeated(measured));
     }
-    for (node, of) in chosen.iter().zip(measured) {
-        let Some(abscissa) = abscissa(object, *node, of, &condition)? else { return Ok(None) };
+    for (node, measured) in chosen.iter().zip(measured) {
+        let Some(abscissa) = abscissa(object, *node, measured, &condition)? else {
+            return Ok(None);
+        };
         let own = unit.get_or_insert_with(|| abscissa.unit.clone()).clone();
         if own.text() != abscissa.unit.text() {
             let reason = "this quantity has another unit than that of the first point".to_owned();
             return Err((abscissa.span, reason));
         }
-        let lacking = rows.lacking(*node, of);
-        for (place, (&x, &y)) in abscissa.values.iter().zip(&of.values).enumerate() {
-            let fault = |reason: String| (of.span.clone(), reason);
-            if let Some(fault) = lacking.as_ref().and_then(|lacking| lacking.fault(of, place)) {
+        let lacking = rows.lacking(*node, measured);
+        for (place, (&x, &y)) in abscissa.values.iter().zip(&measured.values).enumerate() {
+            let fault = |reason: String| (measured.span.clone(), reason);
+            if let Some(fault) = lacking.as_ref().and_then(|lacking| lacking.fault(measured, place))
+            {
                 return Err(fault);
             }
-            let known = match of.is_uncertain(place) {
-                true => {
-                    known(of, place).map_err(|reason| fault(format!("this quantity {reason}")))?
-                }
+            let known = match measured.is_uncertain(place) {
+                true => known(measured, place)
+                    .map_err(|reason| fault(format!("this quantity {reason}")))?,
                 false if are_exact => KnownValue::EXACT,
                 false => {
                     let others = "other points of the table";

@@ -24,10 +24,11 @@ pub(crate) fn inputs(document: &Document<'_>, file: &str) -> Vec<(String, String
     // the names so far, and from which number on one may be free
     let (mut taken, mut numbers) = (HashSet::new(), HashMap::<String, usize>::new());
     for (place, node) in all.iter().enumerate().filter(|(_, node)| !some || is_result(**node)) {
-        let Ok(of) = measured(*node) else { continue };
-        let count = of.values.len();
-        let lacking = rows.lacking(*node, &of);
-        let fault = |place: usize| lacking.as_ref().and_then(|lacking| lacking.fault(&of, place));
+        let Ok(measured) = measured(*node) else { continue };
+        let count = measured.values.len();
+        let lacking = rows.lacking(*node, &measured);
+        let fault =
+            |place: usize| lacking.as_ref().and_then(|lacking| lacking.fault(&measured, place));
         let called = names(*node);
         let stem = identifier(called.first().map_or("", String::as_str));
         for index in (0..count).filter(|place| fault(*place).is_none()) {
@@ -46,9 +47,9 @@ pub(crate) fn inputs(document: &Document<'_>, file: &str) -> Vec<(String, String
             if !called.is_empty() {
                 input["about"] = json!(called.join(" / "));
             }
-            let unit = match difference::kind(*node, &of, None) {
-                Ok(kind) => kind.unit(of.unit.clone()),
-                Err(_) => of.unit.clone(),
+            let unit = match difference::kind(*node, &measured, None) {
+                Ok(kind) => kind.unit(measured.unit.clone()),
+                Err(_) => measured.unit.clone(),
             };
             found.push((name, unit.text().to_owned(), input));
         }

@@ -66,27 +66,27 @@ fn refuse_uncertainties_of(log: &Collector, members: &[Member]) {
 
 fn channel(log: &Collector, member: &Member, recordings: &[RecordingFile]) -> Option<ChannelFile> {
     check_name(log, &member.key, &member.key_span);
-    let of = Object::new(log, "a channel", &member.value, &member.key_span)?;
-    keys::check(&of, keys::CHANNEL);
-    let recording = recording(&of, recordings);
-    let column = of.required("column").and_then(|member| column(log, member));
-    let own = unit(&of, "unit", "1");
+    let object = Object::new(log, "a channel", &member.value, &member.key_span)?;
+    keys::check(&object, keys::CHANNEL);
+    let recording = recording(&object, recordings);
+    let column = object.required("column").and_then(|member| column(log, member));
+    let own = unit(&object, "unit", "1");
     // what is not said to be in another unit is in the channel's, or in counts where it is scaled
-    let scaled = of.get("scale").is_some() || of.get("sensitivity").is_some();
-    let raw = match (of.get("raw_unit"), scaled, &own) {
+    let scaled = object.get("scale").is_some() || object.get("sensitivity").is_some();
+    let raw = match (object.get("raw_unit"), scaled, &own) {
         (None, false, Some(own)) => Some(own.clone()),
-        _ => unit(&of, "raw_unit", "1"),
+        _ => unit(&object, "raw_unit", "1"),
     };
     if let (Some(member), Some(ColumnName::Name(name)), Some(raw)) =
-        (of.get("column"), &column, &raw)
+        (object.get("column"), &column, &raw)
     {
         column_heading::check(log, &member.value.span, name, (raw, ValueOf::Quantity));
     }
-    let scale = own.as_ref().zip(raw.as_ref()).and_then(|(own, raw)| scale(&of, own, raw));
-    let zero = of.number("offset").unwrap_or(0.0);
-    let range = range(&of);
-    let resolution = resolution(&of, range);
-    let steps = steps::read(&of, own.as_ref()?)?;
+    let scale = own.as_ref().zip(raw.as_ref()).and_then(|(own, raw)| scale(&object, own, raw));
+    let zero = object.number("offset").unwrap_or(0.0);
+    let range = range(&object);
+    let resolution = resolution(&object, range);
+    let steps = steps::read(&object, own.as_ref()?)?;
     let (gain, scale_uncertainty) = scale?;
     Some(ChannelFile {
         channel: Channel {

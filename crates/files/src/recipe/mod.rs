@@ -306,10 +306,10 @@ impl RecipeFile {
                 Ok(recording) => {
                     for channel in &channels {
                         let gain = self.channels[*channel].gain;
-                        let of = &mut opened.settings.channels[*channel];
+                        let channel_settings = &mut opened.settings.channels[*channel];
                         // values of an integer format are steps of 1 unless the recipe knows better
-                        if recording.whole && of.resolution == 0.0 {
-                            of.resolution = gain.abs();
+                        if recording.whole && channel_settings.resolution == 0.0 {
+                            channel_settings.resolution = gain.abs();
                         }
                     }
                     opened.warnings.extend(recording.warnings.iter().cloned());

@@ -61,50 +61,55 @@ pub(super) fn read(root: &Object<'_>, folder: Folder<'_>) -> Option<Vec<Recordin
     let held: Vec<(String, Arc<[u8]>)> = held.collect();
     for member in object.members() {
         check_name(root.log, &member.key, &member.key_span);
-        let Some(of) = Object::new(root.log, "a recording", &member.value, &member.key_span) else {
+        let Some(object) = Object::new(root.log, "a recording", &member.value, &member.key_span)
+        else {
             continue;
         };
-        keys::check(&of, keys::RECORDING);
-        let search = search(&of);
+        keys::check(&object, keys::RECORDING);
+        let search = search(&object);
         let found = search.as_ref().map(|search| Measured {
             value: f64::midpoint(search.between[0], search.between[1]),
             standard_uncertainty: 0.0,
             degrees_of_freedom: f64::INFINITY,
         });
+        let rate = if searched(&object).is_some() {
+            None
+        } else {
+            quantity(&object, "sampling_rate", "Hz")
+        };
         let rate =
-            if searched(&of).is_some() { None } else { quantity(&of, "sampling_rate", "Hz") };
-        let rate = rate.filter(|rate| positive(&of, "sampling_rate", rate)).map(|rate| Measured {
-            value: rate.si(),
-            standard_uncertainty: rate.si_uncertainty(),
-            degrees_of_freedom: f64::INFINITY,
-        });
-        let seconds = |key| quantity(&of, key, "s").map(|quantity| quantity.si());
-        let jitter = quantity(&of, "jitter", "s")
-            .filter(|jitter| jitter.value == 0.0 || positive(&of, "jitter", jitter));
-        let unit = unit(&of, "time_unit", "s");
-        if let (Some(unit), Some(member)) = (&unit, of.get("time_unit")) {
+            rate.filter(|rate| positive(&object, "sampling_rate", rate)).map(|rate| Measured {
+                value: rate.si(),
+                standard_uncertainty: rate.si_uncertainty(),
+                degrees_of_freedom: f64::INFINITY,
+            });
+        let seconds = |key| quantity(&object, key, "s").map(|quantity| quantity.si());
+        let jitter = quantity(&object, "jitter", "s")
+            .filter(|jitter| jitter.value == 0.0 || positive(&object, "jitter", jitter));
+        let unit = unit(&object, "time_unit", "s");
+        if let (Some(unit), Some(member)) = (&unit, object.get("time_unit")) {
             let second = super::quantity::own_unit("s");
-            super::quantity::same_dimension(&of, member, unit, &second);
-            if of.get("time").is_none() {
+            super::quantity::same_dimension(&object, member, unit, &second);
+            if object.get("time").is_none() {
                 let diagnostic = DiagnosticKind::OnlyWith { key: "time_unit", with: "time" };
                 root.log.report(&member.key_span, diagnostic);
             }
         }
-        let time = of.get("time").and_then(|member| column(root.log, member));
+        let time = object.get("time").and_then(|member| column(root.log, member));
         if let (Some(member), Some(ColumnName::Name(name)), Some(unit)) =
-            (of.get("time"), &time, &unit)
+            (object.get("time"), &time, &unit)
         {
             let of = (unit, ValueOf::Quantity);
             column_heading::check(root.log, &member.value.span, name, of);
         }
         let (from, to) = (seconds("from"), seconds("to"));
-        check_part(&of, from, to);
+        check_part(&object, from, to);
         recordings.push(RecordingFile {
             name: member.key.clone(),
             place: member.key_span.clone(),
-            file: of
+            file: object
                 .text("file")
-                .zip(of.get("file").map(|m| m.value.span.clone()))
+                .zip(object.get("file").map(|m| m.value.span.clone()))
                 .map(|(name, place)| (name.to_owned(), place)),
             from,
             to,
@@ -143,15 +148,15 @@ fn search(of: &Object<'_>) -> Option<SearchFile> {
     let whole =
         Object::new(of.log, "a sampling rate that is searched", &whole.value, &whole.key_span)?;
     keys::check(&whole, keys::SEARCHED);
-    let of = Object::new(of.log, "a search", &member.value, &member.key_span)?;
-    keys::check(&of, keys::SEARCH);
-    let place = of.required("channel").map(|member| member.value.span.clone());
-    let channel = of.text("channel")?.to_owned();
+    let object = Object::new(of.log, "a search", &member.value, &member.key_span)?;
+    keys::check(&object, keys::SEARCH);
+    let place = object.required("channel").map(|member| member.value.span.clone());
+    let channel = object.text("channel")?.to_owned();
     let hertz = |key: &'static str| {
-        let found = quantity(&of, key, "Hz")?;
-        positive(&of, key, &found).then_some(found)
+        let found = quantity(&object, key, "Hz")?;
+        positive(&object, key, &found).then_some(found)
     };
-    let frequency = match of.get("frequency") {
+    let frequency = match object.get("frequency") {
         Some(_) => {
             let found = hertz("frequency")?;
             Some(Measured {
@@ -162,9 +167,9 @@ fn search(of: &Object<'_>) -> Option<SearchFile> {
         }
         None => None,
     };
-    let step = if of.get("step").is_some() { hertz("step")?.si() } else { 1.0 };
-    of.required("from")?;
-    of.required("to")?;
+    let step = if object.get("step").is_some() { hertz("step")?.si() } else { 1.0 };
+    object.required("from")?;
+    object.required("to")?;
     let (from, to) = (hertz("from")?.si(), hertz("to")?.si());
     if to <= from {
         let reason = format!(
@@ -172,7 +177,7 @@ fn search(of: &Object<'_>) -> Option<SearchFile> {
             gumption_engine::number::Shortest(to),
             gumption_engine::number::Shortest(from)
         );
-        of.log.report(&of.get("to")?.value.span, DiagnosticKind::Recipe { reason });
+        object.log.report(&object.get("to")?.value.span, DiagnosticKind::Recipe { reason });
         return None;
     }
     let steps = (to - from) / step;
@@ -183,8 +188,8 @@ fn search(of: &Object<'_>) -> Option<SearchFile> {
             gumption_engine::number::Shortest(from),
             gumption_engine::number::Shortest(to),
         );
-        let place = of.get("step").unwrap_or(of.get("to")?);
-        of.log.report(&place.value.span, DiagnosticKind::Recipe { reason });
+        let place = object.get("step").unwrap_or(object.get("to")?);
+        object.log.report(&place.value.span, DiagnosticKind::Recipe { reason });
         return None;
     }
     Some(SearchFile { channel, place: place?, frequency, between: [from, to], step })

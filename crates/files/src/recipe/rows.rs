@@ -135,11 +135,11 @@ impl RecipeRowsReader<'_> {
         let log = self.root.log;
         let mut values = self.constants.clone();
         if let Some((row, member)) = row.and_then(|row| row.get("conditions").map(|m| (row, m))) {
-            let of = Object::new(log, "conditions of a row", &member.value, &member.key_span)?;
-            for member in of.members() {
+            let object = Object::new(log, "conditions of a row", &member.value, &member.key_span)?;
+            for member in object.members() {
                 let at = self.conditions.iter().position(|c| c.name == member.key);
                 match at.and_then(|at| values.get_mut(at)) {
-                    Some(value) => *value = of.number(&member.key).or(*value),
+                    Some(value) => *value = object.number(&member.key).or(*value),
                     None => {
                         let names: Vec<&str> =
                             self.conditions.iter().map(|c| c.name.as_str()).collect();
@@ -208,34 +208,36 @@ fn frequencies(object: &Object<'_>, member: &Member) -> Option<Vec<Frequency>> {
         Json::Number(_) => vec![stated(member.value.number()?)],
         Json::List(_) => object.numbers("frequency")?.into_iter().map(stated).collect(),
         _ => {
-            let of = Object::new(object.log, "`frequency`", &member.value, &member.key_span)?;
-            keys::check(&of, keys::FREQUENCY);
-            of.text("name");
-            let estimate = of.truth("estimate").unwrap_or(false);
+            let object = Object::new(object.log, "`frequency`", &member.value, &member.key_span)?;
+            keys::check(&object, keys::FREQUENCY);
+            object.text("name");
+            let estimate = object.truth("estimate").unwrap_or(false);
             let hertz = own_unit("Hz");
-            let unit = unit(&of, "unit", "Hz")?;
-            if let Some(member) = of.get("unit") {
-                same_dimension(&of, member, &unit, &hertz).then_some(())?;
+            let unit = unit(&object, "unit", "Hz")?;
+            if let Some(member) = object.get("unit") {
+                same_dimension(&object, member, &unit, &hertz).then_some(())?;
             }
-            let values = match (of.get("value"), of.get("values")) {
+            let values = match (object.get("value"), object.get("values")) {
                 (Some(_), Some(second)) => {
                     let diagnostic = DiagnosticKind::Exclusive { first: "value", second: "values" };
-                    of.log.report(&second.key_span, diagnostic);
+                    object.log.report(&second.key_span, diagnostic);
                     return None;
                 }
-                (Some(_), None) => vec![of_object(&of, "Hz")?.si()],
-                (None, Some(_)) => of.numbers("values")?.iter().map(|v| unit.to_si(*v)).collect(),
+                (Some(_), None) => vec![of_object(&object, "Hz")?.si()],
+                (None, Some(_)) => {
+                    object.numbers("values")?.iter().map(|v| unit.to_si(*v)).collect()
+                }
                 (None, None) if estimate => {
                     let frequency =
                         Frequency { hertz: None, standard_uncertainty: 0.0, estimate: true };
                     return Some(vec![frequency]);
                 }
                 (None, None) => {
-                    of.required("value")?;
+                    object.required("value")?;
                     return None;
                 }
             };
-            let standard_uncertainty = unit.to_si(uncertainty(&of)?);
+            let standard_uncertainty = unit.to_si(uncertainty(&object)?);
             values
                 .into_iter()
                 .map(|hertz| Frequency { hertz: Some(hertz), standard_uncertainty, estimate })

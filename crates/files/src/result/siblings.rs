@@ -144,9 +144,9 @@ impl<'a> RootInputs<'a> {
             directions.push(direction);
         }
         let mut found = vec![0.0; self.roots.len()];
-        for of in &directions {
-            for (found, with) in found.iter_mut().zip(&of.with_inputs) {
-                *found += of.coefficient * with;
+        for direction in &directions {
+            for (found, with) in found.iter_mut().zip(&direction.with_inputs) {
+                *found += direction.coefficient * with;
             }
         }
         let told = self.roots.iter().zip(found).filter(|(_, r)| r.abs() > ROUNDING);

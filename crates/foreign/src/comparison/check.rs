@@ -15,12 +15,12 @@ impl ComparisonReader<'_> {
         if !has(Role::Label) {
             missing.push("label".to_owned());
         }
-        for of in results {
-            let number = if *of == 0 { String::new() } else { of.to_string() };
-            if !has(Role::Value(*of)) {
+        for result in results {
+            let number = if *result == 0 { String::new() } else { result.to_string() };
+            if !has(Role::Value(*result)) {
                 missing.push(format!("x{number}"));
             }
-            if !has(Role::Expanded(*of)) && !has(Role::Standard(*of)) {
+            if !has(Role::Expanded(*result)) && !has(Role::Standard(*result)) {
                 missing.push(format!("U{number}"));
             }
         }
@@ -63,8 +63,8 @@ impl ComparisonReader<'_> {
             ));
             return None;
         }
-        for of in results {
-            self.check_factors(*of)?;
+        for result in results {
+            self.check_factors(*result)?;
         }
         self.check_units(results)
     }

@@ -109,15 +109,15 @@ impl Columns {
         let is_pair = [1, 2]
             .iter()
             .all(|result| found.iter().any(|(role, ..)| *role == Role::Value(*result)));
-        for (of, place) in deviations {
+        for (result, place) in deviations {
             let is_other = |other: &&(Role, bool, usize)| match other.0 {
-                Role::Value(other) => of == 0 || other == of,
+                Role::Value(other) => result == 0 || other == result,
                 _ => false,
             };
             let value = found.iter().filter(|other| !is_nominal(other)).find(is_other);
             match value {
-                _ if of == 0 && is_pair => nominal.push(place),
-                None => found.push((Role::Value(of), false, place)),
+                _ if result == 0 && is_pair => nominal.push(place),
+                None => found.push((Role::Value(result), false, place)),
                 Some((.., other)) => {
                     fail(format!(
                         "`{}` and `{}` can both be what is compared: leave one of them, or write `#` before \
@@ -172,13 +172,15 @@ impl Columns {
             roles.extend(found.map(|place| (Role::Label, place)));
         }
         owned(&mut roles, |place| headings::is_of_party(heading(place)), is_against);
-        for &(of, place) in &doubtful {
+        for &(result, place) in &doubtful {
             let has = |role: Role| roles.iter().any(|(own, _)| *own == role);
-            let is_only = doubtful.iter().filter(|(other, _)| *other == of).count() == 1;
-            let is_free = is_only && !has(Role::Expanded(of));
+            let is_only = doubtful.iter().filter(|(other, _)| *other == result).count() == 1;
+            let is_free = is_only && !has(Role::Expanded(result));
             // a factor tells that they are expanded, and a cell with a value may say it itself
-            if is_free && (has(Role::Factor(of)) || !has(Role::Value(of)) && holds_both(place)) {
-                roles.push((Role::Expanded(of), place));
+            if is_free
+                && (has(Role::Factor(result)) || !has(Role::Value(result)) && holds_both(place))
+            {
+                roles.push((Role::Expanded(result), place));
             } else {
                 fail(format!(
                     "`{}` can be the standard uncertainty or an expanded one: call the column `u`, or \
@@ -188,12 +190,16 @@ impl Columns {
                 return None;
             }
         }
-        for of in 0..=2 {
+        for result in 0..=2 {
             let place = |role: Role| roles.iter().find(|(own, _)| *own == role).map(|(_, at)| *at);
-            let uncertain = place(Role::Expanded(of)).or(place(Role::Standard(of)));
-            match (place(Role::Value(of)), uncertain) {
-                (Some(value), None) if holds_both(value) => roles.push((Role::Expanded(of), value)),
-                (None, Some(place)) if holds_both(place) => roles.push((Role::Value(of), place)),
+            let uncertain = place(Role::Expanded(result)).or(place(Role::Standard(result)));
+            match (place(Role::Value(result)), uncertain) {
+                (Some(value), None) if holds_both(value) => {
+                    roles.push((Role::Expanded(result), value))
+                }
+                (None, Some(place)) if holds_both(place) => {
+                    roles.push((Role::Value(result), place))
+                }
                 _ => {}
             }
         }

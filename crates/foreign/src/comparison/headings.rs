@@ -199,18 +199,20 @@ fn is_mean(words: &str) -> bool {
 /// What a heading says.
 pub(super) fn said(heading: &str) -> HeadingMeaning {
     let plain = || said_of_any(heading);
-    let Some((of, rest)) = party::split(heading) else { return plain() };
+    let Some((party, rest)) = party::split(heading) else { return plain() };
     match said_of_any(&rest) {
-        HeadingMeaning::Role(Role::Value(0), _) => HeadingMeaning::Role(Role::Value(of), false),
+        HeadingMeaning::Role(Role::Value(0), _) => HeadingMeaning::Role(Role::Value(party), false),
         HeadingMeaning::Role(Role::Expanded(0), _) => {
-            HeadingMeaning::Role(Role::Expanded(of), false)
+            HeadingMeaning::Role(Role::Expanded(party), false)
         }
         HeadingMeaning::Role(Role::Standard(0), _) => {
-            HeadingMeaning::Role(Role::Standard(of), false)
+            HeadingMeaning::Role(Role::Standard(party), false)
         }
-        HeadingMeaning::Role(Role::Factor(0), _) => HeadingMeaning::Role(Role::Factor(of), false),
-        HeadingMeaning::SomeUncertainty(0) => HeadingMeaning::SomeUncertainty(of),
-        HeadingMeaning::Deviation(0) => HeadingMeaning::Deviation(of),
+        HeadingMeaning::Role(Role::Factor(0), _) => {
+            HeadingMeaning::Role(Role::Factor(party), false)
+        }
+        HeadingMeaning::SomeUncertainty(0) => HeadingMeaning::SomeUncertainty(party),
+        HeadingMeaning::Deviation(0) => HeadingMeaning::Deviation(party),
         _ => plain(),
     }
 }

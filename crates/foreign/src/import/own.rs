@@ -136,8 +136,8 @@ impl OwnBudgetReader<'_> {
         row: usize,
         cells: &[String],
     ) -> Option<[Option<f64>; 3]> {
-        let of = self.known(variable, row)?;
-        let before = [of.mean(), of.standard_uncertainty(), of.dof()];
+        let known = self.known(variable, row)?;
+        let before = [known.mean(), known.standard_uncertainty(), known.dof()];
         let mut now = [None; 3];
         for ((place, before), now) in [1, 2, 5].into_iter().zip(before).zip(&mut now) {
             let cell = cells.get(place).map_or("", |cell| cell.trim());
@@ -160,7 +160,7 @@ impl OwnBudgetReader<'_> {
 
     /// Writes changed values of an input, or of a component, into the model.
     fn input(&mut self, variable: usize, [estimate, std, dof]: [Option<f64>; 3]) {
-        let Some(of) = self.known(variable, 0).cloned() else { return };
+        let Some(known) = self.known(variable, 0).cloned() else { return };
         let name = self.task.variables[variable].name.clone();
         let unit = self.task.variables[variable].unit.text().trim().to_owned();
         let Some(object) = place(&mut self.root, &name) else {
@@ -169,14 +169,14 @@ impl OwnBudgetReader<'_> {
         };
         let name = name.as_str();
         self.changed.extend(
-            estimate.map(|now| fact!("import.changed-estimate", name, now, before = of.mean())),
+            estimate.map(|now| fact!("import.changed-estimate", name, now, before = known.mean())),
         );
-        let before = of.standard_uncertainty();
+        let before = known.standard_uncertainty();
         self.changed.extend(std.map(|now| fact!("import.changed-uncertainty", name, now, before)));
         self.changed
-            .extend(dof.map(|now| fact!("import.changed-dof", name, now, before = of.dof())));
+            .extend(dof.map(|now| fact!("import.changed-dof", name, now, before = known.dof())));
         let kept = estimate.is_none_or(|value| moved(object, value))
-            && std.is_none_or(|value| widened(object, value, &of))
+            && std.is_none_or(|value| widened(object, value, &known))
             && dof.is_none_or(|value| with_dof(object, value));
         if kept {
             return;
@@ -189,16 +189,16 @@ impl OwnBudgetReader<'_> {
             normal.entry("unit").or_insert_with(|| json!(unit));
         }
         normal.insert("distribution".to_owned(), json!("normal"));
-        normal.insert("mean".to_owned(), json!(estimate.unwrap_or(of.mean())));
-        normal.insert("std".to_owned(), json!(std.unwrap_or(of.standard_uncertainty())));
-        let dof = dof.unwrap_or(of.dof());
+        normal.insert("mean".to_owned(), json!(estimate.unwrap_or(known.mean())));
+        normal.insert("std".to_owned(), json!(std.unwrap_or(known.standard_uncertainty())));
+        let dof = dof.unwrap_or(known.dof());
         if dof.is_finite() {
             normal.insert("dof".to_owned(), json!(dof));
         }
         for key in ["about", "type", "group", "per"] {
             normal.extend(object.get(key).map(|value| (key.to_owned(), value.clone())));
         }
-        self.replaced.push(fact!("import.normal-now", name, distribution = of.name()));
+        self.replaced.push(fact!("import.normal-now", name, distribution = known.name()));
         *object = normal;
     }
 

@@ -90,8 +90,8 @@ impl ReadSheet<'_> {
     /// What the rows of the result state; `None` after a mistake.
     pub(super) fn stated(&self, header: &Header, rows: &Rows) -> Option<Vec<StatedFigure>> {
         let mut found = Vec::new();
-        for of in &rows.of_result {
-            found.extend(self.stated_by(header, *of)?);
+        for row in &rows.of_result {
+            found.extend(self.stated_by(header, *row)?);
         }
         let factor = rows
             .of_result

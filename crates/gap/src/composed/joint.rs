@@ -98,13 +98,13 @@ impl ComposedSearch<'_> {
         ln_share: f64,
     ) -> Vec<Composition> {
         let mut leading: Vec<&Composition> = Vec::new();
-        for of in ranked {
+        for composition in ranked {
             let same = |other: &&Composition| {
-                let (own, other) = (&of.terms[0], &other.terms[0]);
+                let (own, other) = (&composition.terms[0], &other.terms[0]);
                 own.target.names == other.target.names && own.argument == other.argument
             };
             if leading.len() < FIRST && !leading.iter().any(same) {
-                leading.push(of);
+                leading.push(composition);
             }
         }
         let square = white.dot(white);
@@ -133,13 +133,13 @@ impl ComposedSearch<'_> {
         // the same two terms are found from either of them
         largest_first(&mut found, |composition| composition.ln_weight);
         let mut distinct: Vec<Composition> = Vec::new();
-        for of in found {
-            let [one, other] = [&of.terms[0], &of.terms[1]];
+        for composition in found {
+            let [one, other] = [&composition.terms[0], &composition.terms[1]];
             let same = |known: &Composition| {
                 known.terms[0].is_same_as(other) && known.terms[1].is_same_as(one)
             };
             if !distinct.iter().any(same) {
-                distinct.push(of);
+                distinct.push(composition);
             }
         }
         distinct
@@ -162,14 +162,14 @@ impl ComposedSearch<'_> {
             .collect();
         // the best of every quantity, way and condition
         let mut leading: Vec<&&Composition> = Vec::new();
-        for of in single {
-            let own = &of.terms[0];
+        for composition in single {
+            let own = &composition.terms[0];
             let alike = leading.iter().filter(|other| {
                 let other = &other.terms[0];
                 own.is_way_of(other) && own.argument == other.argument
             });
             if alike.count() < 3 && leading.len() < MULTIPLIED {
-                leading.push(of);
+                leading.push(composition);
             }
         }
         let mut found = self.loops(metric, white, &leading, ln_share);
@@ -291,9 +291,9 @@ impl ComposedSearch<'_> {
             let mut others = self.singles(&with, &again, REFINED);
             largest_first(&mut others, |a| a.ln_weight);
             others.truncate(KEPT);
-            for of in &mut others {
-                of.beside.clone_from(&hypothesis.effects);
-                of.ln_weight += ln_share + ln_effect + gain;
+            for composition in &mut others {
+                composition.beside.clone_from(&hypothesis.effects);
+                composition.ln_weight += ln_share + ln_effect + gain;
             }
             Some(others)
         };

@@ -249,11 +249,11 @@ impl ComposedSearch<'_> {
                 let is_new = |(n, form): &(usize, &ComposedForm)| !forms[..*n].contains(form);
                 let different = forms.iter().enumerate().filter(is_new).count();
                 let ln_form = ln_of(*argument) - elementary::ln(different.max(1) as f64);
-                for of in table {
-                    let form = of.shape.form();
+                for row in table {
+                    let form = row.shape.form();
                     let variants = forms.iter().filter(|other| **other == form).count();
                     let ln_prior = ln_form - elementary::ln(variants as f64);
-                    add(*argument, &of.shape, &of.grid, ln_prior);
+                    add(*argument, &row.shape, &row.grid, ln_prior);
                 }
             }
             found

@@ -247,13 +247,13 @@ impl<'p> Problem<'p> {
         let known = self.setup.linear.variances[value];
         let (mut ln, mut found) = (self.setup.data.ln_scales[value], false);
         slopes.fill(0.0);
-        for (of, slope) in
+        for (shared, slope) in
             noise.iter().zip(slopes.iter_mut()).filter(|(noise, _)| noise.output == output)
         {
-            let factor = if of.is_power { self.setup.ln_sizes[value] } else { 1.0 };
-            found |= !of.is_power;
-            ln += factor * of.value;
-            *slope = factor * of.rise / STEP;
+            let factor = if shared.is_power { self.setup.ln_sizes[value] } else { 1.0 };
+            found |= !shared.is_power;
+            ln += factor * shared.value;
+            *slope = factor * shared.rise / STEP;
         }
         if !found {
             return known;

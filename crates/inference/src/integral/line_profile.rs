@@ -116,19 +116,19 @@ fn edged(likelihood: &Likelihood<'_>, modes: &[Mode]) -> Vec<Vec<usize>> {
     let mut asked = Vec::new();
     let mut points: Vec<Vec<f64>> = modes.iter().map(|mode| mode.scores.clone()).collect();
     for (n, mode) in modes.iter().enumerate() {
-        for &of in &variables {
+        for &variable in &variables {
             // at a bound the density may fall as steeply as it will
-            if mode.scores[of].abs() >= farthest[of] {
+            if mode.scores[variable].abs() >= farthest[variable] {
                 continue;
             }
-            let information = mode.information[(of, of)];
+            let information = mode.information[(variable, variable)];
             let deviation = 1.0 / information.max(f64::MIN_POSITIVE).sqrt();
             for distance in PROBES.into_iter().chain([deviation.min(1.0)]) {
                 for step in [-distance, distance] {
                     let mut point = mode.scores.clone();
-                    point[of] += step;
-                    if point[of].abs() <= farthest[of] {
-                        asked.push((n, of, 0.5 * information * step * step));
+                    point[variable] += step;
+                    if point[variable].abs() <= farthest[variable] {
+                        asked.push((n, variable, 0.5 * information * step * step));
                         points.push(point);
                     }
                 }
@@ -138,12 +138,13 @@ fn edged(likelihood: &Likelihood<'_>, modes: &[Mode]) -> Vec<Vec<usize>> {
     let found = densities(likelihood, &points);
     let (own, found) = found.split_at(modes.len());
     let mut edged = vec![Vec::new(); modes.len()];
-    for ((n, of, wanted), density) in asked.into_iter().zip(found) {
+    for ((n, variable, wanted), density) in asked.into_iter().zip(found) {
         let fall = own[n] - density;
         let steeper = wanted <= 0.5 && fall > STEEP;
         let flatter = wanted > CERTAIN && fall < STEEP;
-        if (steeper || flatter || fall < -RISING || fall.is_nan()) && !edged[n].contains(&of) {
-            edged[n].push(of);
+        if (steeper || flatter || fall < -RISING || fall.is_nan()) && !edged[n].contains(&variable)
+        {
+            edged[n].push(variable);
         }
     }
     edged

@@ -211,8 +211,8 @@ impl<'l, 'c> Scan<'l, 'c> {
                 }
                 let at = |moves: &[(usize, f64)]| {
                     let mut point = middle.clone();
-                    for &(of, score) in moves {
-                        point[of] = score;
+                    for &(parameter, score) in moves {
+                        point[parameter] = score;
                     }
                     point
                 };
@@ -356,14 +356,14 @@ impl<'l, 'c> Scan<'l, 'c> {
             _ => 1,
         };
         let mut all = vec![self.base.to_vec()];
-        for of in others {
-            let most = if self.map(of).is_some_and(Map::is_bounded) { EDGE } else { 1.6 };
+        for parameter in others {
+            let most = if self.map(parameter).is_some_and(Map::is_bounded) { EDGE } else { 1.6 };
             all = all
                 .into_iter()
                 .flat_map(|point| {
                     (0..each).map(move |n| {
                         let mut point = point.clone();
-                        point[of] = most * ((2 * n + 1) as f64 / each as f64 - 1.0);
+                        point[parameter] = most * ((2 * n + 1) as f64 / each as f64 - 1.0);
                         point
                     })
                 })

@@ -259,18 +259,18 @@ impl WithOff<'_> {
 
     /// By how much it rises if a further value is off by each size.
     pub(crate) fn more(&self, value: usize) -> SizeGains {
-        let of = self.influence;
-        let (mut c, mut g) = (of.inverse(value, value), of.pulls[value]);
+        let influence = self.influence;
+        let (mut c, mut g) = (influence.inverse(value, value), influence.pulls[value]);
         if !self.members.is_empty() {
             let members = self.members.iter();
             let mut shared: Vec<f64> =
-                members.map(|(member, s)| s * of.inverse(value, *member)).collect();
+                members.map(|(member, s)| s * influence.inverse(value, *member)).collect();
             packed::solve(&self.root, &mut shared);
             c -= dot(&shared, &shared);
             g -= dot(&shared, &self.solved);
         }
         std::array::from_fn(|size| {
-            let s2 = of.deviation(value, size).powi(2);
+            let s2 = influence.deviation(value, size).powi(2);
             let growth = 1.0 + s2 * c.max(0.0);
             0.5 * (s2 * g * g / growth - elementary::ln(growth))
         })

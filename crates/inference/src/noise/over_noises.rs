@@ -76,10 +76,10 @@ pub fn summed(mut weighings: Vec<Weighing<'_>>) -> (Setup<'_>, Arc<Discrepancy>,
             });
         }
     }
-    for of in &mut posterior.beside {
-        let effects = of.named.effects.clone();
-        of.named.prior = beside::prior(setup.case, &stated, &effects);
-        sum(&setup, &mut of.named, own_share, true, &weighings, &|w| {
+    for beside_effects in &mut posterior.beside {
+        let effects = beside_effects.named.effects.clone();
+        beside_effects.named.prior = beside::prior(setup.case, &stated, &effects);
+        sum(&setup, &mut beside_effects.named, own_share, true, &weighings, &|w| {
             Some(&w.posterior.beside(&effects)?.named)
         });
     }

@@ -222,8 +222,8 @@ impl Groups {
             let shares = rows.iter().filter_map(|row| left.shares.get(row * self.outputs + output));
             let squares = dot(&own, &own);
             let (mut sum, mut total) = (0.0, 1.0);
-            for (of, share) in own.iter().zip(shares) {
-                sum += share * of / within;
+            for (own_value, share) in own.iter().zip(shares) {
+                sum += share * own_value / within;
                 total += square * share * share;
             }
             let noise = squares * (1.0 - 1.0 / (within * within))

@@ -106,9 +106,12 @@ pub(crate) fn polar(
     let cut = phase_slope * size * of.of_cut;
     // oscillations beside it, whose frequencies the recording tells no better than that
     let mut beside = [0.0; 2];
-    for (number, of) in analysed.besides.fitted.iter().enumerate() {
+    for (number, oscillation) in analysed.besides.fitted.iter().enumerate() {
         let slope = design.slope(fit, analysed.fundamentals.len() + number);
-        let (sa, sb) = (slope.cosines[tone] * of.deviation, slope.sines[tone] * of.deviation);
+        let (sa, sb) = (
+            slope.cosines[tone] * oscillation.deviation,
+            slope.sines[tone] * oscillation.deviation,
+        );
         beside[0] += (ca * sa + cb * sb).powi(2);
         beside[1] += (ca * sb - cb * sa).powi(2);
     }

@@ -95,12 +95,12 @@ impl Rounding {
             let size = whole * share(k) / f64::from(PLACES);
             let [re, im] = [design.solve(re), design.solve(im)];
             offset += size * (re.offset * re.offset + im.offset * im.offset);
-            for (tone, of) in tones.iter_mut().enumerate() {
+            for (tone, sizes) in tones.iter_mut().enumerate() {
                 let (a, b) =
                     ((re.cosines[tone], im.cosines[tone]), (re.sines[tone], im.sines[tone]));
-                of[0] += size * (a.0 * a.0 + a.1 * a.1);
-                of[1] += size * (a.0 * b.0 + a.1 * b.1);
-                of[2] += size * (b.0 * b.0 + b.1 * b.1);
+                sizes[0] += size * (a.0 * a.0 + a.1 * a.1);
+                sizes[1] += size * (a.0 * b.0 + a.1 * b.1);
+                sizes[2] += size * (b.0 * b.0 + b.1 * b.1);
             }
         }
         let scattered = noise * noise + whole * (1.0 - repeated).max(0.0);

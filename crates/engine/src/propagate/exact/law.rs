@@ -249,8 +249,8 @@ impl Law {
         }
         if !is_flat {
             let [low, high] = [[tails[0], p + tails[1]], [p + tails[0], tails[1]]];
-            for (end, of) in ends.iter_mut().zip([low, high]) {
-                let (_, [density, _]) = self.end(of, Purpose::Find)?;
+            for (end, end_tails) in ends.iter_mut().zip([low, high]) {
+                let (_, [density, _]) = self.end(end_tails, Purpose::Find)?;
                 end.bound += f64::max(tails[0] - from, to - tails[0]) / density;
             }
         }

@@ -121,9 +121,9 @@ pub(super) fn closed(inputs: &TermInputs<'_>, group: &SeparateGroup) -> Option<T
         _ => None,
     };
     if let ([leaf], [v]) = (group.leaves.as_slice(), group.variables.as_slice()) {
-        let of = distribution(*v)?;
+        let alone = distribution(*v)?;
         let bare = matches!(inputs.program.nodes[leaf.node], Node::Variable(_));
-        return match of {
+        return match alone {
             Distribution::Lognormal(shape) if leaf.logarithm && bare => {
                 let [mean, std] = shape.of_logarithm();
                 let law = Characteristic::Normal { std };
@@ -137,8 +137,8 @@ pub(super) fn closed(inputs: &TermInputs<'_>, group: &SeparateGroup) -> Option<T
             }
             _ if leaf.logarithm || !bare => None,
             _ => {
-                let law = Characteristic::of(of)?;
-                Some(Term::closed(leaf.factor * middle(of), leaf.factor, law))
+                let law = Characteristic::of(alone)?;
+                Some(Term::closed(leaf.factor * middle(alone), leaf.factor, law))
             }
         };
     }

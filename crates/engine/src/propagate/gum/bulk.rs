@@ -254,8 +254,9 @@ pub fn budgets(
         return Err(BulkError::Correlation);
     }
     let mut pairs = HashSet::new();
-    for of in options.correlations {
-        let pair = [of.first.min(of.second), of.first.max(of.second)];
+    for correlation in options.correlations {
+        let pair =
+            [correlation.first.min(correlation.second), correlation.first.max(correlation.second)];
         if !pairs.insert(pair) {
             return Err(BulkError::CorrelationTwice(pair));
         }
@@ -564,8 +565,8 @@ impl Scratch {
         }
         let dof = &mut piece.dof[rows.clone()];
         for i in 0..count {
-            let of = 1.0 / fourth[i];
-            dof[i] = if combined[i].is_nan() { f64::NAN } else { of };
+            let effective = 1.0 / fourth[i];
+            dof[i] = if combined[i].is_nan() { f64::NAN } else { effective };
         }
         bulk.undefine(first, rows, piece);
     }
