@@ -93,21 +93,21 @@ fn relative_figures() {
 #[test]
 fn type_and_source() {
     insta::assert_snapshot!(budget(&[BudgetColumn::Type, BudgetColumn::About]), @"
-    quantity     estimate  standard  unit  distri-      type  dof    sensi-  contri-  share
-                             uncer-        bution                    tivity   bution   in %
+    quantity     estimate  standard  unit  distri-      dof    sensi-  contri-  share  type
+                             uncer-        bution              tivity   bution   in %
                              tainty
     ───────────────────────────────────────────────────────────────────────────────────────
-    reading      5010.000     0.091  mV    readings     A       3   1.000      0.091   15.5
-    certificate     0.50      0.10   mV    normal       B       ∞   1.000      0.10    18.6
-    drift           0.00      0.12   mV    triangular   B       ∞   1.000      0.12    27.9
-    resolution      0.000     0.029  mV    rectangular  B       ∞   1.000      0.029    1.5
-    offset          0.00      0.10   mV    normal       B       ∞   1.000      0.10    19.3
-    skew            0.100     0.071  mV    triangular   B       ∞   1.000      0.071    9.3
-    noise           0.000     0.030  mV    normal       B       ∞   1.000      0.030    1.7
-    temp           23.0       1.2    degC  rectangular  B       ∞   0.05000    0.058    6.2
-    slope           0.05      0      mV/K  constant     B       ∞  23.00       0        0.0
+    reading      5010.000     0.091  mV    readings       3   1.000      0.091   15.5  A
+    certificate     0.50      0.10   mV    normal         ∞   1.000      0.10    18.6  B
+    drift           0.00      0.12   mV    triangular     ∞   1.000      0.12    27.9  B
+    resolution      0.000     0.029  mV    rectangular    ∞   1.000      0.029    1.5  B
+    offset          0.00      0.10   mV    normal         ∞   1.000      0.10    19.3  B
+    skew            0.100     0.071  mV    triangular     ∞   1.000      0.071    9.3  B
+    noise           0.000     0.030  mV    normal         ∞   1.000      0.030    1.7  B
+    temp           23.0       1.2    degC  rectangular    ∞   0.05000    0.058    6.2  B
+    slope           0.05      0      mV/K  constant       ∞  23.00       0        0.0  B
     ───────────────────────────────────────────────────────────────────────────────────────
-    v            5011.75      0.23   mV    combined           125              0.23   100.0
+    v            5011.75      0.23   mV    combined     125              0.23   100.0
 
     quantity     source of
                  uncertainty
@@ -132,36 +132,37 @@ fn type_and_source() {
 #[test]
 fn all_columns() {
     insta::assert_snapshot!(budget(&BudgetColumn::ALL), @"
-    quantity     estimate  value ±  divisor  standard    rela-  unit  distri-      type  dof    sensi-
-                                               uncer-     tive        bution                    tivity
-                                               tainty     in %
-    ──────────────────────────────────────────────────────────────────────────────────────────────────
-    reading      5010.000     0.18    2         0.091   0.0018  mV    readings     A       3   1.000
-    certificate     0.50      0.2     2         0.10   20       mV    normal       B       ∞   1.000
-    drift           0.00      0.3     2.449     0.12    -       mV    triangular   B       ∞   1.000
-    resolution      0.000     0.05    1.732     0.029   -       mV    rectangular  B       ∞   1.000
-    offset          0.00      0.2     1.96      0.10    -       mV    normal       B       ∞   1.000
-    skew            0.100     -       -         0.071  71       mV    triangular   B       ∞   1.000
-    noise           0.000     0.03    1         0.030   -       mV    normal       B       ∞   1.000
-    temp           23.0       2       1.732     1.2     -       degC  rectangular  B       ∞   0.05000
-    slope           0.05      -       -         0       0       mV/K  constant     B       ∞  23.00
-    ──────────────────────────────────────────────────────────────────────────────────────────────────
-    v            5011.75                        0.23    0.0046  mV    combined           125
+    quantity     estimate  standard  unit  distri-      dof    sensi-  contri-  share  value ±  divisor
+                             uncer-        bution              tivity   bution   in %
+                             tainty
+    ───────────────────────────────────────────────────────────────────────────────────────────────────
+    reading      5010.000     0.091  mV    readings       3   1.000      0.091   15.5     0.18    2
+    certificate     0.50      0.10   mV    normal         ∞   1.000      0.10    18.6     0.2     2
+    drift           0.00      0.12   mV    triangular     ∞   1.000      0.12    27.9     0.3     2.449
+    resolution      0.000     0.029  mV    rectangular    ∞   1.000      0.029    1.5     0.05    1.732
+    offset          0.00      0.10   mV    normal         ∞   1.000      0.10    19.3     0.2     1.96
+    skew            0.100     0.071  mV    triangular     ∞   1.000      0.071    9.3     -       -
+    noise           0.000     0.030  mV    normal         ∞   1.000      0.030    1.7     0.03    1
+    temp           23.0       1.2    degC  rectangular    ∞   0.05000    0.058    6.2     2       1.732
+    slope           0.05      0      mV/K  constant       ∞  23.00       0        0.0     -       -
+    ───────────────────────────────────────────────────────────────────────────────────────────────────
+    v            5011.75      0.23   mV    combined     125              0.23   100.0
 
-    quantity     contri-     of y  share  group      source of
-                  bution     in %   in %             uncertainty
-    ────────────────────────────────────────────────────────────────────────────────────
-    reading        0.091  0.0018    15.5             repeatability
-    certificate    0.10   0.0020    18.6  voltmeter  certificate of the voltmeter, k = 2
-    drift          0.12   0.0024    27.9  voltmeter  since calibration
-    resolution     0.029  0.00058    1.5  voltmeter
-    offset         0.10   0.0020    19.3
-    skew           0.071  0.0014     9.3
-    noise          0.030  0.00060    1.7
-    temp           0.058  0.0012     6.2
-    slope          0      0          0.0
-    ────────────────────────────────────────────────────────────────────────────────────
-    v              0.23   0.0046   100.0
+    quantity       rela-  type     of y  group      source of
+                    tive           in %             uncertainty
+                    in %
+    ───────────────────────────────────────────────────────────────────────────────────
+    reading       0.0018  A     0.0018              repeatability
+    certificate  20       B     0.0020   voltmeter  certificate of the voltmeter, k = 2
+    drift         -       B     0.0024   voltmeter  since calibration
+    resolution    -       B     0.00058  voltmeter
+    offset        -       B     0.0020
+    skew         71       B     0.0014
+    noise         -       B     0.00060
+    temp          -       B     0.0012
+    slope         0       B     0
+    ───────────────────────────────────────────────────────────────────────────────────
+    v             0.0046        0.0046
 
     Sensitivity coefficients in mV per unit of the quantity, contributions in mV; relative: standard
     uncertainty to the modulus of the estimate; of y: contribution to the modulus of v.
