@@ -484,7 +484,7 @@ fn every_typed_model_has_a_template_that_is_right_and_runs() {
 fn check_says_yes_or_lists_the_mistakes() {
     let (code, answer, message) = ended(&["check", "-"], SMALL);
     assert_eq!((code, message.as_str()), (0, ""));
-    assert!(answer.contains("no mistakes"));
+    assert!(answer.contains("no errors"));
     let answer = json(&["check", "-", "--format", "json"], SMALL);
     assert_eq!(answer, serde_json::json!({"ok": true, "errors": []}));
     let (code, answer, message) = ended(&["check", "-"], "{}");

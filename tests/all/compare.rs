@@ -295,7 +295,7 @@ fn a_workbook_gives_what_its_csv_gives() {
     fs::write(folder.path().join("no.xlsx"), "label,x1").expect("written");
     let refused = run(folder.path(), &["no.xlsx"]);
     assert_eq!(refused.status.code(), Some(2));
-    assert!(String::from_utf8_lossy(&refused.stderr).contains("it is no workbook"));
+    assert!(String::from_utf8_lossy(&refused.stderr).contains("it is not a workbook"));
 }
 
 /// Mistakes name the file, the line and what would be right, and nothing is written.

@@ -218,7 +218,7 @@ mod tests {
             ("1,5 year", "such as `1.5`"),
             ("1,5", "such as `1.5`"),
             ("1,000 d", "can be 1.000 or 1000"),
-            ("1 000 d", "without blanks"),
+            ("1 000 d", "without spaces"),
             ("1 1/2 yr", "write a decimal fraction"),
             ("1 d (2)", "no unit of time"),
         ] {

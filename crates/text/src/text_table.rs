@@ -261,6 +261,6 @@ mod tests {
         let log = Collector::new(source.clone());
         assert!(TextTable::parse(&log, &source).is_none());
         let said = log.into_diagnostics().to_string();
-        assert!(said.starts_with("t:2:1:") && said.contains("no quote at its end"), "{said}");
+        assert!(said.starts_with("t:2:1:") && said.contains("no closing quote"), "{said}");
     }
 }

@@ -653,7 +653,7 @@ mod tests {
         for bytes in
             [&b""[..], b"PK", b"label,x", b"PK\x05\x06\0\0\0\0\0\0\0\0\0\0\0\0\0\0\0\0\0\0"]
         {
-            assert!(first_sheet(bytes.to_vec()).unwrap_err().contains("it is no workbook"));
+            assert!(first_sheet(bytes.to_vec()).unwrap_err().contains("it is not a workbook"));
         }
         let said = first_sheet(b"PK\x01\x02".repeat(10_001)).unwrap_err();
         assert!(said.contains("10001 parts"), "{said}");

@@ -307,7 +307,7 @@ mod tests {
             (header("'|f8'", "(3,)"), "the type `|f8`"),
             (header("'<c16'", "(3,)"), "the type `<c16`"),
             (header("'é8'", "(3,)"), "the type `é8`"),
-            (header("[('a', '<f8'), ('b', '<i4', (2, 3))]", "(3,)"), "one of records"),
+            (header("[('a', '<f8'), ('b', '<i4', (2, 3))]", "(3,)"), "has records"),
             (header("'<f8'", "(-3,)"), "`shape`"),
             (header("'<f8'", "(99999999999999999999,)"), "`shape`"),
             (header("'<f8'", "(2.5,)"), "`shape`"),

@@ -345,7 +345,7 @@ fn units_of_parameters_follow() {
         file.warnings.iter().map(|warning| warning.code()).collect::<Vec<_>>()
     };
     assert!(of(form, r#"{"a": 1, "b": 1.5, "c": 2}"#, "N").is_empty());
-    for (b, said) in [("1,5 mV/V", "such as `1.5`"), ("1 500 mV/V", "without blanks")] {
+    for (b, said) in [("1,5 mV/V", "such as `1.5`"), ("1 500 mV/V", "without spaces")] {
         let start = format!(r#"{{"a": "1 mV/V", "b": "{b}", "c": "2 kN"}}"#);
         let error = read_text("t", &text(form, &start, "kN"), Path::new(""), &[]).unwrap_err();
         assert!(error.to_string().contains(said), "{error}");
