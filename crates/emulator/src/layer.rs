@@ -3,6 +3,7 @@
 use crate::axis::Coordinate;
 use crate::focus::Focus;
 use crate::frame::Frame;
+use crate::lengths::likeliest_lengths;
 use crate::prediction::Prediction;
 use crate::process::GaussianProcess;
 use crate::singular::{SingularVectors, add_multiple};
@@ -91,12 +92,7 @@ impl Layer {
         let mut lengths: Option<Vec<f64>> = None;
         let mut next = 0;
         while next < count {
-            let found = GaussianProcess::likeliest_lengths(
-                &points,
-                &coefficients[next],
-                trend,
-                lengths.as_deref(),
-            );
+            let found = likeliest_lengths(&points, &coefficients[next], trend, lengths.as_deref());
             let end = if next + 1 < WITH_LENGTHS { next + 1 } else { count };
             let values = &coefficients[next..end];
             processes.push(GaussianProcess::new(points.clone(), values, trend, &found));

@@ -3,9 +3,9 @@
 use gumption_engine::linalg::packed::triangle;
 use gumption_engine::number::elementary;
 
+use crate::conditioned::Conditioned;
 use crate::matern::correlation;
 use crate::minimum::minimum;
-use crate::process::Conditioned;
 use crate::trend::Trend;
 
 /// The logarithm of the length that is likeliest beforehand: twice what the points' scale is.
@@ -21,8 +21,11 @@ const LIMIT: f64 = 4.0;
 /// Steps of the search at most.
 const STEPS: usize = 20;
 
-/// The logarithms of the likeliest lengths.
-pub(crate) fn likeliest(
+/// The logarithms of the lengths, one for each dimension, with which a function with these values at some
+/// points is likeliest as a [`GaussianProcess`](crate::GaussianProcess), with a little in favour of a length of
+/// 2. They are within -4 and 4. The search begins at those given, or at a length of 2, and makes 20 steps at
+/// most.
+pub fn likeliest_lengths(
     points: &[Vec<f64>],
     values: &[f64],
     trend: Trend,
@@ -106,7 +109,7 @@ mod tests {
     fn variables_without_influence_get_long_lengths() {
         let points = points();
         let values: Vec<f64> = points.iter().map(|p| (2.0 * p[0]).sin()).collect();
-        let found = likeliest(&points, &values, Trend::None, None);
+        let found = likeliest_lengths(&points, &values, Trend::None, None);
         assert!(found[0] < 1.0 && found[1] > 2.0 && found[2] > 2.0, "{found:?}");
     }
 }

@@ -19,6 +19,7 @@
 #![allow(clippy::needless_range_loop)] // small matrices read best by their places
 
 mod axis;
+mod conditioned;
 mod correction;
 mod emulator;
 mod focus;
@@ -46,6 +47,7 @@ pub use emulator::{Emulator, Learnt, SimulatorRun};
 pub use focus::Focus;
 pub use halton::space_filling_scores;
 pub use layer::{Layer, Reach};
+pub use lengths::likeliest_lengths;
 pub use lines::DamagedLine;
 pub use plan::{Batch, Ending, Open, Plan, Step, TooFewRuns};
 pub use prediction::Prediction;

@@ -1,32 +1,21 @@
 //! Gaussian processes: functions of several variables from their values at some points.
 
 use gumption_engine::linalg::dot;
-use gumption_engine::linalg::packed::{self, triangle};
 
-use crate::lengths;
-use crate::matern::{correlation, inverse_squares};
-use crate::singular::add_multiple;
-use crate::trend::{Trend, functions};
-
-/// What is added to the correlation of each value with itself, so that rounding leaves it positive definite.
-const NUGGET: f64 = 1e-9;
-
-/// The same for the functions of the trend, relative.
-const RIDGE: f64 = 1e-12;
-
-/// The least variance of a residual that is taken for one.
-const LEAST_VARIANCE: f64 = 1e-30;
+use crate::conditioned::{Conditioned, Target};
+use crate::matern::correlation;
+use crate::trend::Trend;
 
 /// Functions of several variables that vary at the same lengths, each known at the same points: Gaussian
 /// processes with the covariance function of Matérn, ν = 5/2, about a [`Trend`] (Rasmussen and Williams
 /// 2006, 2.2 and 2.7). The variance of each is that of its greatest likelihood.
 ///
 /// ```
-/// use gumption_emulator::{GaussianProcess, Trend};
+/// use gumption_emulator::{GaussianProcess, Trend, likeliest_lengths};
 ///
 /// let points: Vec<Vec<f64>> = (0..9).map(|i| vec![-1.0 + 0.25 * f64::from(i)]).collect();
 /// let squares: Vec<f64> = points.iter().map(|p| p[0] * p[0]).collect();
-/// let lengths = GaussianProcess::likeliest_lengths(&points, &squares, Trend::Linear, None);
+/// let lengths = likeliest_lengths(&points, &squares, Trend::Linear, None);
 /// let process = GaussianProcess::new(points, &[squares], Trend::Linear, &lengths);
 /// let between = &process.predict(&[0.1])[0];
 /// assert!((between.value - 0.01).abs() < 1e-3 && (between.gradient[0] - 0.2).abs() < 1e-2);
@@ -48,115 +37,7 @@ pub struct Coefficient {
     pub deviation: f64,
 }
 
-/// Points and lengths made ready for values at them.
-#[derive(Clone, Debug, PartialEq)]
-pub(crate) struct Conditioned {
-    pub(crate) points: Vec<Vec<f64>>,
-    pub(crate) inverse_squares: Vec<f64>,
-    /// The Cholesky root of the correlations, a packed lower triangle.
-    pub(crate) root: Vec<f64>,
-    /// The functions of the trend at the points, whitened by the root.
-    trend: Vec<Vec<f64>>,
-    /// The Cholesky root of their products with each other.
-    trend_root: Vec<f64>,
-}
-
-/// A function, as its values at the points give it.
-#[derive(Clone, Debug, PartialEq)]
-pub(crate) struct Target {
-    /// What the correlations with the points are multiplied by.
-    pub(crate) weights: Vec<f64>,
-    /// What the functions of the trend are multiplied by.
-    trend: Vec<f64>,
-    pub(crate) variance: f64,
-}
-
-impl Conditioned {
-    pub(crate) fn new(points: Vec<Vec<f64>>, trend: Trend, ln_lengths: &[f64]) -> Self {
-        let inverse_squares = inverse_squares(ln_lengths);
-        let mut root = Vec::with_capacity(triangle(points.len()));
-        for (i, point) in points.iter().enumerate() {
-            root.extend(points[..i].iter().map(|b| correlation(point, b, &inverse_squares).value));
-            root.push(1.0 + NUGGET);
-        }
-        packed::cholesky_of_definite(&mut root);
-        let count = trend.functions(points.len(), ln_lengths.len());
-        let mut trend = vec![Vec::with_capacity(points.len()); count];
-        for point in &points {
-            for (column, function) in trend.iter_mut().zip(functions(count, point)) {
-                column.push(function);
-            }
-        }
-        let mut trend_root = Vec::new();
-        for i in 0..count {
-            packed::solve(&root, &mut trend[i]);
-            trend_root.extend(trend[..i].iter().map(|other| dot(other, &trend[i])));
-            trend_root.push(dot(&trend[i], &trend[i]) * (1.0 + RIDGE));
-        }
-        packed::cholesky_of_definite(&mut trend_root);
-        Self { points, inverse_squares, root, trend, trend_root }
-    }
-
-    /// The function with these values at the points.
-    pub(crate) fn target(&self, values: &[f64]) -> Target {
-        let mut residual = values.to_vec();
-        packed::solve(&self.root, &mut residual);
-        let mut trend: Vec<f64> = self.trend.iter().map(|of| dot(of, &residual)).collect();
-        packed::solve(&self.trend_root, &mut trend);
-        packed::solve_transposed(&self.trend_root, &mut trend);
-        for (factor, of) in trend.iter().zip(&self.trend) {
-            add_multiple(&mut residual, -factor, of);
-        }
-        let variance = dot(&residual, &residual) / values.len().max(1) as f64 + LEAST_VARIANCE;
-        packed::solve_transposed(&self.root, &mut residual);
-        Target { weights: residual, trend, variance }
-    }
-
-    /// Half the logarithm of the determinant of the correlations.
-    pub(crate) fn ln_root(&self) -> f64 {
-        packed::ln_diagonal(&self.root)
-    }
-
-    /// The inverse of the correlations, a packed lower triangle.
-    pub(crate) fn inverse(&self) -> Vec<f64> {
-        let mut root = self.root.clone();
-        packed::invert(&mut root);
-        let mut inverse = vec![0.0; root.len()];
-        for row in packed::rows(&root) {
-            for (i, &factor) in row.iter().enumerate() {
-                add_multiple(&mut inverse[triangle(i)..triangle(i + 1)], factor, &row[..=i]);
-            }
-        }
-        inverse
-    }
-
-    /// The variance, relative to that of a target, that the points leave at one with these correlations to
-    /// them.
-    fn left(&self, mut correlations: Vec<f64>, point: &[f64]) -> f64 {
-        packed::solve(&self.root, &mut correlations);
-        let known = dot(&correlations, &correlations);
-        let count = self.trend.len();
-        let trend = functions(count, point).zip(&self.trend);
-        let mut unknown: Vec<f64> =
-            trend.map(|(function, of)| function - dot(of, &correlations)).collect();
-        packed::solve(&self.trend_root, &mut unknown);
-        (1.0 - known).max(NUGGET) + dot(&unknown, &unknown)
-    }
-}
-
 impl GaussianProcess {
-    /// The logarithms of the lengths, one for each dimension, with which a function is likeliest, and a
-    /// little for lengths near 2; the lengths are within e^-4 and e^4. The search begins at those given, or
-    /// at 2, and makes 20 steps at most.
-    pub fn likeliest_lengths(
-        points: &[Vec<f64>],
-        values: &[f64],
-        trend: Trend,
-        start: Option<&[f64]>,
-    ) -> Vec<f64> {
-        lengths::likeliest(points, values, trend, start)
-    }
-
     /// The functions with these values at points, which vary at lengths with these logarithms.
     pub fn new(
         points: Vec<Vec<f64>>,
@@ -195,9 +76,7 @@ impl GaussianProcess {
             gradient: slopes
                 .iter()
                 .enumerate()
-                .map(|(j, slopes)| {
-                    dot(slopes, &target.weights) + target.trend.get(j + 1).copied().unwrap_or(0.0)
-                })
+                .map(|(j, slopes)| dot(slopes, &target.weights) + target.trend_slope(j))
                 .collect(),
             deviation: target.variance,
         };
@@ -210,18 +89,11 @@ impl GaussianProcess {
     }
 }
 
-impl Target {
-    fn value(&self, point: &[f64], correlations: &[f64]) -> f64 {
-        let trend = functions(self.trend.len(), point).zip(&self.trend);
-        let trend: f64 = trend.map(|(function, factor)| function * factor).sum();
-        trend + dot(correlations, &self.weights)
-    }
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
     use crate::halton::space_filling_scores;
+    use crate::lengths::likeliest_lengths;
     use gumption_engine::distribution::StreamKey;
 
     /// Points of a plane, about -1 to 1.
@@ -238,7 +110,7 @@ mod tests {
     fn fitted(count: usize, trend: Trend, of: impl Fn(&[f64]) -> f64) -> GaussianProcess {
         let points = points(count);
         let values: Vec<f64> = points.iter().map(|p| of(p)).collect();
-        let lengths = GaussianProcess::likeliest_lengths(&points, &values, trend, None);
+        let lengths = likeliest_lengths(&points, &values, trend, None);
         GaussianProcess::new(points, &[values], trend, &lengths)
     }
 

@@ -201,6 +201,34 @@ fn gradients_are_those_of_the_values() {
     }
 }
 
+/// Where the local layer passes into the one that knows the prior, between 3 and 4 standard deviations of the
+/// runs from their middle, slopes are those of the values as well. The third derivative of the passage, 10^4,
+/// times what the layers differ by, 0.1, leaves 2e-6 in differences over 1e-4, and rounding as much.
+#[test]
+fn one_layer_passes_into_the_other_smoothly() {
+    let mut emulator = learnt();
+    let space = space();
+    let at = [0.3, 0.5, -0.4];
+    let (draws, focus) = focus(&space, &[1], &at, 0.1);
+    let runs: Vec<SimulatorRun> = draws.iter().map(|z| run(&space, &[1], z)).collect();
+    emulator.learn(&[1], &runs, Some(focus));
+    let near = emulator.correction(&[1]).unwrap().near().unwrap();
+    let mut met = 0;
+    for step in 0..40 {
+        let shifted = |by: f64| [at[0], at[1] + 0.02 * f64::from(step) + by, at[2]];
+        let point = space.at_scores(&[1], &shifted(0.0));
+        let share = near.share(&point).0;
+        met += usize::from(share > 0.0 && share < 1.0);
+        let slopes = &emulator.predict(&[1], &point).gradient[1];
+        let values = |by| emulator.values(&[1], &space.at_scores(&[1], &shifted(by)));
+        for (slope, (high, low)) in slopes.iter().zip(values(1e-4).iter().zip(values(-1e-4))) {
+            let difference = (high - low) / 2e-4;
+            assert!((slope - difference).abs() < 1e-5, "{step} {slope} {difference}");
+        }
+    }
+    assert!(met > 2, "{met} points of the passage");
+}
+
 #[test]
 fn runs_far_from_the_data_or_without_numbers_are_left_out() {
     let space = space();
