@@ -29,7 +29,8 @@ pub struct Learnt {
     /// The errors on these runs before they were learnt from; `None` where no run could be learnt from, or
     /// nothing was known of the hypothesis: of one effect before its first runs.
     pub unseen: Option<UnseenError>,
-    /// How many runs were left out: with an output that is no number, or beyond 100 000 u.
+    /// How many runs were left out: with an output that is no number or beyond 100 000 u, or with another
+    /// number of rows.
     pub left_out: usize,
 }
 
