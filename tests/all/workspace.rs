@@ -5,12 +5,13 @@ use std::fs;
 use crate::support::root;
 
 /// The crates from low to high.
-const CRATES: [&str; 16] = [
+const CRATES: [&str; 17] = [
     "units",
     "engine",
     "measurements",
     "signal",
     "columns",
+    "emulator",
     "inference",
     "gap",
     "assumptions",

@@ -1,0 +1,74 @@
+//! What a hypothesis adds to those with fewer effects.
+
+use crate::axis::Coordinate;
+use crate::focus::Focus;
+use crate::layer::{Layer, Reach};
+use crate::prediction::Prediction;
+use crate::singular::add_multiple;
+
+/// The corrections of a hypothesis: a layer that knows them everywhere, and where the posterior is narrow one
+/// that knows them there. The local one serves among its runs, the other far from them: hypotheses with more
+/// effects may have their posteriors there. Between them one passes into the other smoothly.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Correction {
+    everywhere: Layer,
+    near: Option<Layer>,
+}
+
+impl Correction {
+    /// Learns the corrections of some runs, at least one: `points` are scaled coordinates, each with the
+    /// correction of every row; `reach` is that of the layer that knows all of the prior.
+    pub fn learn(
+        points: &[Vec<f64>],
+        corrections: &[Vec<f64>],
+        reach: &Reach<'_>,
+        focus: Option<&Focus>,
+    ) -> Self {
+        let focus = focus.filter(|focus| focus.is_narrow());
+        let near = focus.map(|focus| Layer::learn(points, corrections, &Reach::Near(focus)));
+        Self { everywhere: Layer::learn(points, corrections, reach), near }
+    }
+
+    /// The layer that knows all of the prior.
+    pub fn everywhere(&self) -> &Layer {
+        &self.everywhere
+    }
+
+    /// The layer that knows the surroundings of a narrow posterior.
+    pub fn near(&self) -> Option<&Layer> {
+        self.near.as_ref()
+    }
+
+    /// The layers that serve at a point, with their shares.
+    fn serving(&self, point: &[Coordinate]) -> impl Iterator<Item = (f64, &Layer)> {
+        let near = self.near.as_ref().map_or(0.0, |near| near.share(point).0);
+        let layers = [(1.0 - near, Some(&self.everywhere)), (near, self.near.as_ref())];
+        let serves = |(share, layer): (f64, Option<_>)| Some((share, layer?));
+        layers.into_iter().filter(|(share, _)| *share > 0.0).filter_map(serves)
+    }
+
+    /// Adds the corrections at a point to values of all rows.
+    pub(crate) fn add_values(&self, point: &[Coordinate], values: &mut [f64]) {
+        for (share, layer) in self.serving(point) {
+            layer.add_values(point, share, values);
+        }
+    }
+
+    /// Adds the corrections at a point to a prediction, with their gradient along the unknowns that have
+    /// these places in it and their variances.
+    pub(crate) fn add(&self, point: &[Coordinate], places: &[usize], to: &mut Prediction) {
+        for (share, layer) in self.serving(point) {
+            layer.add(point, places, share, to);
+        }
+        let Some(near) = &self.near else { return };
+        let (share, slopes) = near.share(point);
+        if share > 0.0 && share < 1.0 {
+            let mut change = vec![0.0; to.values.len()];
+            near.add_values(point, 1.0, &mut change);
+            self.everywhere.add_values(point, -1.0, &mut change);
+            for (place, slope) in places.iter().zip(slopes) {
+                add_multiple(&mut to.gradient[*place], slope, &change);
+            }
+        }
+    }
+}

@@ -1,0 +1,173 @@
+//! One layer of an emulator: corrections of all rows as functions of a hypothesis' unknowns.
+
+use crate::axis::Coordinate;
+use crate::focus::Focus;
+use crate::frame::Frame;
+use crate::lengths::likeliest_lengths;
+use crate::prediction::Prediction;
+use crate::process::GaussianProcess;
+use crate::singular::{SingularVectors, add_multiple};
+use crate::trend::Trend;
+
+/// Singular vectors are kept until what is left has this norm over all rows, in u: the root mean square over
+/// the runs.
+const LEFT: f64 = 0.1;
+
+/// Coefficients whose lengths are looked for; those of the last one serve the rest.
+const WITH_LENGTHS: usize = 3;
+
+/// A local layer learns from so many runs for each unknown.
+const NEAREST: usize = 6;
+
+/// And from so many at least.
+const LEAST_NEAREST: usize = 20;
+
+/// What a layer is to know.
+#[derive(Clone, Debug)]
+pub enum Reach<'f> {
+    /// All of the prior, of what is nowhere zero.
+    Plain,
+    /// All of the prior, of a correction that is zero at these points, which count as runs: scaled
+    /// coordinates.
+    Zero(Vec<Vec<f64>>),
+    /// The surroundings of a posterior: it learns from the six runs nearest to it for each unknown, in their
+    /// own scale, so that what it knows shrinks with them.
+    Near(&'f Focus),
+}
+
+/// Corrections of all rows, in u, as a mean and singular vectors (Higdon et al., J. Am. Stat. Assoc. 103
+/// (2008) 570), each with a coefficient that is a Gaussian process of the scaled coordinates.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Layer {
+    frame: Option<Frame>,
+    mean: Option<Vec<f64>>,
+    vectors: Vec<Vec<f64>>,
+    /// Coefficients in the order of the vectors: the first ones one by one, then all that share lengths.
+    processes: Vec<GaussianProcess>,
+}
+
+impl Layer {
+    /// Learns the corrections of some runs, at least one: `points` are scaled coordinates, each with the
+    /// correction of every row.
+    pub fn learn(points: &[Vec<f64>], corrections: &[Vec<f64>], reach: &Reach<'_>) -> Self {
+        let places = match reach {
+            Reach::Near(focus) => {
+                focus.nearest(points, (NEAREST * points[0].len()).max(LEAST_NEAREST))
+            }
+            _ => (0..points.len()).collect(),
+        };
+        let mut rows: Vec<Vec<f64>> = places.iter().map(|&run| corrections[run].clone()).collect();
+        let mut points: Vec<Vec<f64>> = places.iter().map(|&run| points[run].clone()).collect();
+        let mut frame = None;
+        if let Reach::Near(_) = reach {
+            let about: Vec<&[f64]> = points.iter().map(Vec::as_slice).collect();
+            let about = Frame::about(&about);
+            for point in &mut points {
+                let given: Vec<Coordinate> =
+                    point.iter().map(|&at| Coordinate { at, slope: 0.0 }).collect();
+                *point = about.of(&given).iter().map(|c| c.at).collect();
+            }
+            frame = Some(about);
+        }
+        let (trend, mean) = match reach {
+            Reach::Zero(_) => (Trend::None, None),
+            _ => (Trend::Linear, Some(mean(&rows))),
+        };
+        if let Some(mean) = &mean {
+            rows.iter_mut().for_each(|row| add_multiple(row, -1.0, mean));
+        }
+        let directions = SingularVectors::of(&rows, LEFT);
+        let count = directions.vectors.len();
+        let mut coefficients = vec![Vec::with_capacity(rows.len()); count];
+        for row in &rows {
+            for (of, along) in coefficients.iter_mut().zip(directions.coefficients(row)) {
+                of.push(along);
+            }
+        }
+        if let Reach::Zero(free) = reach {
+            points.extend(free.iter().cloned());
+            coefficients.iter_mut().for_each(|of| of.resize(points.len(), 0.0));
+        }
+        let mut processes = Vec::new();
+        let mut lengths: Option<Vec<f64>> = None;
+        let mut next = 0;
+        while next < count {
+            let found = likeliest_lengths(&points, &coefficients[next], trend, lengths.as_deref());
+            let end = if next + 1 < WITH_LENGTHS { next + 1 } else { count };
+            let values = &coefficients[next..end];
+            processes.push(GaussianProcess::new(points.clone(), values, trend, &found));
+            lengths = Some(found);
+            next = end;
+        }
+        Self { frame, mean, vectors: directions.vectors, processes }
+    }
+
+    /// How many singular vectors it has.
+    pub fn vectors(&self) -> usize {
+        self.vectors.len()
+    }
+
+    /// How far a point is among the runs that a local layer learnt from, from 0 to 1, and the derivatives of
+    /// that; 1 everywhere of any other.
+    pub(crate) fn share(&self, point: &[Coordinate]) -> (f64, Vec<f64>) {
+        match &self.frame {
+            Some(frame) => frame.share(&frame.of(point)),
+            None => (1.0, vec![0.0; point.len()]),
+        }
+    }
+
+    fn framed(&self, point: &[Coordinate]) -> (Vec<Coordinate>, Vec<f64>) {
+        let own = match &self.frame {
+            Some(frame) => frame.of(point),
+            None => point.to_vec(),
+        };
+        let at = own.iter().map(|coordinate| coordinate.at).collect();
+        (own, at)
+    }
+
+    /// Adds a share of the corrections at a point to values of all rows.
+    pub(crate) fn add_values(&self, point: &[Coordinate], share: f64, values: &mut [f64]) {
+        let (_, at) = self.framed(point);
+        if let Some(mean) = &self.mean {
+            add_multiple(values, share, mean);
+        }
+        let coefficients = self.processes.iter().flat_map(|process| process.values(&at));
+        for (coefficient, vector) in coefficients.zip(&self.vectors) {
+            add_multiple(values, share * coefficient, vector);
+        }
+    }
+
+    /// Adds a share of the corrections at a point to a prediction, of their gradient along the unknowns that
+    /// have these places in it and of their variances.
+    pub(crate) fn add(
+        &self,
+        point: &[Coordinate],
+        places: &[usize],
+        share: f64,
+        to: &mut Prediction,
+    ) {
+        let (own, at) = self.framed(point);
+        if let Some(mean) = &self.mean {
+            add_multiple(&mut to.values, share, mean);
+        }
+        let coefficients = self.processes.iter().flat_map(|process| process.predict(&at));
+        for (coefficient, vector) in coefficients.zip(&self.vectors) {
+            add_multiple(&mut to.values, share * coefficient.value, vector);
+            for ((place, slope), axis) in places.iter().zip(coefficient.gradient).zip(&own) {
+                add_multiple(&mut to.gradient[*place], share * slope * axis.slope, vector);
+            }
+            let variance = share * coefficient.deviation * coefficient.deviation;
+            for (sum, entry) in to.deviations.iter_mut().zip(vector) {
+                *sum += variance * entry * entry;
+            }
+        }
+    }
+}
+
+fn mean(rows: &[Vec<f64>]) -> Vec<f64> {
+    let mut mean = vec![0.0; rows[0].len()];
+    for row in rows {
+        add_multiple(&mut mean, 1.0 / rows.len() as f64, row);
+    }
+    mean
+}

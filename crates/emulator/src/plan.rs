@@ -1,0 +1,334 @@
+//! Which runs of a simulator to make next.
+
+use std::collections::BTreeMap;
+
+use gumption_engine::distribution::StreamKey;
+use gumption_engine::number::{elementary, largest_first};
+
+use crate::focus::Focus;
+use crate::halton::space_filling_scores;
+use crate::space::Space;
+use crate::state::State;
+use crate::step::{Batch, Ending, Open, Step, TooFewRuns};
+use crate::uniforms::Uniforms;
+use crate::unseen::UnseenError;
+
+/// The error of an emulator at the posterior that is small enough: the norm over all rows, in u. A fifth of
+/// the noise in each of 500 rows would be 4.5, and ten units of log evidence.
+const GOAL: f64 = 0.5;
+
+/// The last runs, at what is reported.
+const VERDICT: usize = 4;
+
+/// The share of the budget that fills the space before anything is inferred: one third.
+const START: usize = 3;
+
+/// Runs of each effect at the start, at least.
+const LEAST_START: usize = 6;
+
+/// Runs of each effect, and of the best pairs, at its own best point before any is left out.
+const FIRST: usize = 2;
+
+/// So many pairs are run at their own best points, whatever superposition says of them.
+const TRIED: usize = 6;
+
+/// Hypotheses within this of the best score lead.
+const NEAR: f64 = 12.0;
+
+/// So many lead at most.
+const MOST_LEADING: usize = 6;
+
+/// Pairs are let in after so many rounds, whether the single effects are well known or not.
+const SINGLES: usize = 5;
+
+/// Rounds at most.
+const ROUNDS: usize = 20;
+
+/// A plan of the runs of a simulator.
+///
+/// It alternates between runs and inference and knows neither: whoever follows it makes the runs of
+/// [`Step::Run`], lets the emulator learn from each batch in turn and tells [`Plan::learnt`] the error, and
+/// hands the states of the hypotheses of [`Step::Infer`] to [`Plan::next`].
+///
+/// The start fills the space with a third of the budget: two thirds of it to learn from, one third to know
+/// the error. Then every single effect is run at its own best point, twice, before any is left out. Once
+/// singles are known, or after five rounds, all pairs are asked for, by superposition and without a run: two
+/// effects that hide each other are each worse than nothing alone. The six best are run at their own best
+/// points, as superposition is wrong where effects are large. The runs of a round go to the modes and
+/// to draws of the posteriors of the leading hypotheses whose errors are not below 0.5 u in norm over all
+/// rows. The last runs are those at what is reported.
+///
+/// The plan follows from its seed and from what it is told: somebody who made its runs before makes none
+/// again.
+#[derive(Clone, Debug)]
+pub struct Plan {
+    space: Space,
+    budget: usize,
+    seed: u64,
+    used: usize,
+    turn: usize,
+    phase: Phase,
+    stage: Stage,
+    found: BTreeMap<Vec<usize>, State>,
+    errors: BTreeMap<Vec<usize>, Errors>,
+}
+
+/// Which hypotheses there are.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+enum Phase {
+    /// Single effects, of which none was run at its own best point.
+    First,
+    /// Single effects.
+    Singles,
+    /// All pairs, by superposition.
+    Pairs,
+    /// Those that were near the best once.
+    All,
+}
+
+#[derive(Clone, Debug)]
+enum Stage {
+    Start,
+    /// These are to be inferred next.
+    Ask(Vec<Vec<usize>>),
+    /// States were asked for.
+    Decide,
+    /// The last runs were handed out.
+    Verdict,
+}
+
+/// The errors of a hypothesis at its posterior, the median of the last round and of the one before.
+#[derive(Clone, Copy, Debug)]
+struct Errors {
+    last: f64,
+    before: Option<f64>,
+}
+
+impl Plan {
+    /// A plan for so many runs in all, the last ones included.
+    ///
+    /// # Errors
+    /// A budget that is smaller than the start, each effect's runs at its own best point and the last runs.
+    pub fn new(space: Space, budget: usize, seed: u64) -> Result<Self, TooFewRuns> {
+        let effects = space.effects();
+        let least = plain_start(&space) + FIRST + effects * (LEAST_START + FIRST) + VERDICT;
+        if budget < least {
+            return Err(TooFewRuns { least });
+        }
+        Ok(Self {
+            space,
+            budget,
+            seed,
+            used: 0,
+            turn: 0,
+            phase: Phase::First,
+            stage: Stage::Start,
+            found: BTreeMap::new(),
+            errors: BTreeMap::new(),
+        })
+    }
+
+    /// How many runs were asked for so far.
+    pub fn used(&self) -> usize {
+        self.used
+    }
+
+    /// Takes the error of the emulator on a batch before it learnt from it. What fills the space says nothing
+    /// of a posterior.
+    pub fn learnt(&mut self, batch: &Batch, unseen: Option<&UnseenError>) {
+        if let (Some(_), Some(unseen)) = (&batch.focus, unseen) {
+            let before = self.errors.get(&batch.effects).map(|errors| errors.last);
+            let errors = Errors { last: unseen.median(), before };
+            self.errors.insert(batch.effects.clone(), errors);
+        }
+    }
+
+    /// The next step. After [`Step::Infer`] the states of the hypotheses that were asked for are given; one
+    /// that is missing stays as it was.
+    pub fn next(&mut self, states: Vec<State>) -> Step {
+        for state in states {
+            self.found.insert(state.effects.clone(), state);
+        }
+        match std::mem::replace(&mut self.stage, Stage::Verdict) {
+            Stage::Start => {
+                self.stage = Stage::Ask(self.few());
+                self.run(self.start())
+            }
+            Stage::Ask(asked) => {
+                self.stage = Stage::Decide;
+                Step::Infer(asked)
+            }
+            Stage::Decide => self.decide(),
+            Stage::Verdict => {
+                let is_known = self.leading().first().is_none_or(|best| self.is_known(best));
+                if is_known || self.left() == 0 || self.turn >= ROUNDS {
+                    return Step::Done(self.ending());
+                }
+                self.stage = Stage::Decide;
+                Step::Infer(self.leading())
+            }
+        }
+    }
+
+    /// What follows from the states that were given.
+    fn decide(&mut self) -> Step {
+        let leading = self.leading();
+        let mut open: Vec<Vec<usize>> =
+            leading.iter().filter(|of| !self.is_known(of)).cloned().collect();
+        let turn = self.turn;
+        self.turn += 1;
+        if self.phase == Phase::Singles && (open.is_empty() || turn >= SINGLES) {
+            let pairs = self.pairs();
+            self.phase = if pairs.is_empty() { Phase::All } else { Phase::Pairs };
+            if self.phase == Phase::Pairs {
+                self.stage = Stage::Decide;
+                return Step::Infer(pairs);
+            }
+        }
+        // what was never run at its own best point, wherever it stands
+        let new = match self.phase {
+            Phase::First => self.few(),
+            Phase::Pairs => self.best_pairs_beside(&leading),
+            _ => Vec::new(),
+        };
+        let is_finished = self.phase == Phase::All && open.is_empty();
+        if self.left() == 0 || turn >= ROUNDS || is_finished {
+            let best = leading.first().and_then(|best| self.found.get(best));
+            let last = best.map(|best| self.batch(best, VERDICT.min(self.budget - self.used)));
+            return self.run(last.into_iter().collect());
+        }
+        if self.phase == Phase::First {
+            open.clear();
+        } else if open.is_empty() && new.is_empty() {
+            open.clone_from(&leading);
+        }
+        let counts = new.iter().map(|of| (of, FIRST));
+        let counts = counts.chain(open.iter().map(|of| (of, runs_in_round(of))));
+        let mut batches = Vec::new();
+        let mut left = self.left();
+        for (of, count) in counts {
+            let count = count.min(left);
+            if let Some(state) = self.found.get(of).filter(|_| count > 0) {
+                batches.push(self.batch(state, count));
+                left -= count;
+            }
+        }
+        let mut next = leading;
+        let more = if self.phase == Phase::Singles { self.few() } else { new };
+        for of in more {
+            if !next.contains(&of) {
+                next.push(of);
+            }
+        }
+        self.stage = Stage::Ask(next);
+        self.phase = match self.phase {
+            Phase::First => Phase::Singles,
+            Phase::Pairs => Phase::All,
+            other => other,
+        };
+        self.run(batches)
+    }
+
+    fn run(&mut self, batches: Vec<Batch>) -> Step {
+        self.used += batches.iter().map(|batch| batch.scores.len()).sum::<usize>();
+        Step::Run(batches)
+    }
+
+    /// Runs that are left but for the last ones.
+    fn left(&self) -> usize {
+        self.budget.saturating_sub(self.used + VERDICT)
+    }
+
+    /// No effect and every one alone.
+    fn few(&self) -> Vec<Vec<usize>> {
+        let singles = (0..self.space.effects()).map(|effect| vec![effect]);
+        std::iter::once(Vec::new()).chain(singles).collect()
+    }
+
+    fn pairs(&self) -> Vec<Vec<usize>> {
+        let count = self.space.effects();
+        (0..count).flat_map(|a| (a + 1..count).map(move |b| vec![a, b])).collect()
+    }
+
+    /// The best pairs that do not lead, as superposition has them.
+    fn best_pairs_beside(&self, leading: &[Vec<usize>]) -> Vec<Vec<usize>> {
+        let mut pairs = self.pairs();
+        pairs.retain(|pair| self.found.contains_key(pair) && !leading.contains(pair));
+        largest_first(&mut pairs, |pair| self.found[pair].score);
+        pairs.truncate(TRIED);
+        pairs
+    }
+
+    /// The hypotheses near the best one, the best first.
+    fn leading(&self) -> Vec<Vec<usize>> {
+        let mut order: Vec<&State> = self.found.values().collect();
+        largest_first(&mut order, |state| state.score);
+        let Some(best) = order.first().map(|state| state.score) else { return Vec::new() };
+        let near = order.iter().take_while(|state| state.score > best - NEAR);
+        near.take(MOST_LEADING).map(|state| state.effects.clone()).collect()
+    }
+
+    /// Whether the error of a hypothesis at its posterior is small enough.
+    fn is_known(&self, effects: &[usize]) -> bool {
+        self.errors.get(effects).is_some_and(|errors| errors.last <= GOAL)
+    }
+
+    /// What fills the space, of each hypothesis to learn from and to know the error.
+    fn start(&self) -> Vec<Batch> {
+        let plain = plain_start(&self.space);
+        let rest = (self.budget / START).saturating_sub(plain);
+        let share = rest.checked_div(self.space.effects()).unwrap_or(0).max(LEAST_START);
+        let mut batches = Vec::new();
+        for effects in self.few() {
+            let count = if effects.is_empty() { plain } else { share };
+            let key = StreamKey::new(self.seed, &format!("emulator/start/{effects:?}"));
+            let unknowns = self.space.unknowns(&effects).len();
+            let mut scores = space_filling_scores(count, unknowns, key);
+            let unseen = scores.split_off(2 * count / 3);
+            for scores in [scores, unseen] {
+                batches.push(Batch { effects: effects.clone(), scores, focus: None });
+            }
+        }
+        batches
+    }
+
+    /// The mode and draws of a posterior.
+    fn batch(&self, state: &State, count: usize) -> Batch {
+        let name = format!("emulator/draws/{:?}", state.effects);
+        let mut random = Uniforms::new(StreamKey::new(self.seed, &name), self.used as u64);
+        let mut weights = state.weights.clone();
+        let mut scores = vec![state.mode.clone()];
+        for _ in 1..count {
+            // each draw once, as a run that was made tells nothing new
+            let Some(place) = random.place(&weights) else { break };
+            weights[place] = 0.0;
+            scores.push(state.draws[place].clone());
+        }
+        let focus = Focus::of(&self.space, &state.effects, &state.draws, &state.weights);
+        Batch { effects: state.effects.clone(), scores, focus: Some(focus) }
+    }
+
+    fn ending(&self) -> Ending {
+        let open = self.leading().into_iter().filter(|of| !self.is_known(of)).map(|effects| {
+            let errors = self.errors.get(&effects);
+            let rounds = errors.map_or(1.0, |errors| {
+                let falls = errors.before.map_or(0.5, |before| errors.last / before);
+                let falls = falls.clamp(0.1, 0.5_f64.sqrt());
+                (elementary::ln(GOAL / errors.last) / elementary::ln(falls)).ceil().max(1.0)
+            });
+            let runs = rounds as usize * runs_in_round(&effects);
+            Open { effects, error: errors.map(|errors| errors.last), runs }
+        });
+        Ending { runs: self.used, open: open.collect() }
+    }
+}
+
+/// Runs of the plain simulator at the start.
+fn plain_start(space: &Space) -> usize {
+    4 * space.unknowns(&[]).len() + 4
+}
+
+/// Runs of a hypothesis in a round.
+fn runs_in_round(effects: &[usize]) -> usize {
+    4 + 2 * effects.len()
+}

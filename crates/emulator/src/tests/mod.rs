@@ -1,0 +1,5 @@
+//! The emulator as a whole.
+
+mod layers;
+mod pendulum;
+mod plan;

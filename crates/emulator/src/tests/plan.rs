@@ -1,0 +1,164 @@
+//! The order of the runs, with an inference that is made up.
+
+use gumption_engine::distribution::{Normal, Rectangular};
+
+use crate::{
+    Batch, Emulator, Ending, Parameter, Plan, SimulatorEffect, SimulatorRun, Space, State, Step,
+};
+
+/// One input and so many effects of one parameter.
+fn space(effects: usize) -> Space {
+    let effect = |number: usize| SimulatorEffect {
+        name: format!("effect {number}"),
+        parameters: vec![Parameter {
+            name: format!("size {number}"),
+            prior: Rectangular::between(0.0, 1.0).unwrap().into(),
+        }],
+        neutral: vec![(0, 0.0)],
+    };
+    let prior = Normal::new(1.0, 0.1).unwrap().into();
+    let input = Parameter { name: "x".to_owned(), prior };
+    Space::new(vec![input], (0..effects).map(effect).collect()).unwrap()
+}
+
+/// A plan that was followed: all batches, and all hypotheses that were asked for, in their order.
+struct Followed {
+    batches: Vec<Batch>,
+    asked: Vec<Vec<Vec<usize>>>,
+    ending: Ending,
+}
+
+/// Follows a plan, with posteriors of ten draws, with an emulator of two rows that errs by `error` in the first of them, by the hypothesis
+/// and the number of its rounds; `score` is what the inference finds.
+fn follow(
+    space: &Space,
+    budget: usize,
+    score: impl Fn(&[usize]) -> f64,
+    error: impl Fn(&[usize], usize) -> f64,
+) -> Followed {
+    let mut plan = Plan::new(space.clone(), budget, 1).unwrap();
+    let (mut batches, mut asked, mut states) = (Vec::<Batch>::new(), Vec::new(), Vec::new());
+    loop {
+        match plan.next(std::mem::take(&mut states)) {
+            Step::Run(more) => {
+                for batch in more {
+                    let rounds = batches.iter().filter(|of| of.effects == batch.effects);
+                    let rounds = rounds.filter(|of| of.focus.is_some()).count();
+                    // an emulator that knows zeros, and runs that are off by the error
+                    let mut emulator = Emulator::new(space.clone(), 2);
+                    let runs = |output: f64| -> Vec<SimulatorRun> {
+                        let scores = batch.scores.iter().cloned();
+                        let run = |scores| SimulatorRun { scores, outputs: vec![output, 0.0] };
+                        scores.map(run).collect()
+                    };
+                    emulator.learn(&batch.effects, &runs(0.0), None);
+                    let off = error(&batch.effects, rounds);
+                    let learnt = emulator.learn(&batch.effects, &runs(off), None);
+                    plan.learnt(&batch, learnt.unseen.as_ref());
+                    batches.push(batch);
+                }
+                let made: usize = batches.iter().map(|batch| batch.scores.len()).sum();
+                assert_eq!(plan.used(), made);
+                assert!(made <= budget, "{made} runs");
+            }
+            Step::Infer(hypotheses) => {
+                states = hypotheses
+                    .iter()
+                    .map(|effects| {
+                        let mode = vec![0.25; 1 + effects.len()];
+                        let draws = (0..10).map(|n| vec![0.1 * f64::from(n); mode.len()]).collect();
+                        let (effects, score) = (effects.clone(), score(effects));
+                        State { effects, score, mode, draws, weights: vec![0.1; 10] }
+                    })
+                    .collect();
+                asked.push(hypotheses);
+            }
+            Step::Done(ending) => return Followed { batches, asked, ending },
+        }
+    }
+}
+
+fn hypotheses(of: &[Batch]) -> Vec<Vec<usize>> {
+    of.iter().map(|batch| batch.effects.clone()).collect()
+}
+
+/// A third of 150 runs is the start: 8 of the plain simulator, 14 of each effect, two thirds of them first.
+/// Then each single effect is run at its mode although it is far from the best, all pairs are asked for and run
+/// at their modes as well, and the ones near the best are run until they are known. The last four runs are at
+/// what is reported.
+#[test]
+fn a_plan_that_converges() {
+    let pair = [0, 2];
+    let score = |effects: &[usize]| match effects {
+        [0, 2] => 0.0,
+        [0] => -5.0,
+        _ => -50.0,
+    };
+    let error = |_: &[usize], round: usize| [5.0, 0.4, 0.1, 0.01][round.min(3)];
+    let Followed { batches, asked, ending } = follow(&space(3), 150, score, error);
+    let sizes: Vec<usize> = batches[..8].iter().map(|batch| batch.scores.len()).collect();
+    assert_eq!(sizes, [5, 3, 9, 5, 9, 5, 9, 5]);
+    assert!(batches[..8].iter().all(|batch| batch.focus.is_none()));
+    let first = &batches[8..12];
+    assert_eq!(hypotheses(first), [vec![], vec![0], vec![1], vec![2]]);
+    // no run twice: draws are those of the posterior
+    let batch = batches.iter().find(|batch| batch.effects == pair).unwrap();
+    let places: std::collections::BTreeSet<u64> =
+        batch.scores.iter().map(|scores| scores[0].to_bits()).collect();
+    assert_eq!(places.len(), batch.scores.len());
+    assert!(first.iter().all(|batch| batch.scores.len() == 2 && batch.scores[0][0] == 0.25));
+    assert!(asked.contains(&vec![vec![0, 1], vec![0, 2], vec![1, 2]]), "{asked:?}");
+    let sizes = |effects: &[usize]| -> Vec<usize> {
+        let own = batches.iter().filter(|batch| batch.effects == effects);
+        own.map(|batch| batch.scores.len()).collect()
+    };
+    assert_eq!(sizes(&pair), [8, 8, 4], "two rounds and the last runs");
+    assert_eq!((sizes(&[0, 1]), sizes(&[1, 2])), (vec![2], vec![2]));
+    assert_eq!(batches[batches.len() - 1].effects, pair);
+    assert_eq!(ending.open, []);
+    assert_eq!(ending.runs, batches.iter().map(|batch| batch.scores.len()).sum::<usize>());
+}
+
+/// An error that never falls: pairs are let in all the same, the budget is used up to the last run, and what
+/// is open is said.
+#[test]
+fn a_budget_that_ends_first() {
+    let score = |effects: &[usize]| -(effects.len() as f64);
+    let Followed { batches, asked, ending } = follow(&space(3), 150, score, |_, _| 3.0);
+    assert_eq!(ending.runs, 150);
+    let pairs = asked.iter().position(|asked| asked.contains(&vec![0, 1])).unwrap();
+    assert!(pairs <= 6, "{pairs}");
+    assert_eq!(hypotheses(&batches[batches.len() - 1..]), [Vec::<usize>::new()]);
+    assert_eq!(ending.open[0].effects, Vec::<usize>::new());
+    assert_eq!(ending.open[0].error, Some(3.0));
+    // ln(0.5/3)/ln(sqrt(1/2)) is 5.2: six rounds of four
+    assert_eq!(ending.open[0].runs, 24);
+}
+
+/// A simulator that does not know effects: its own error at its posterior, then the last runs.
+#[test]
+fn a_simulator_without_effects() {
+    let Followed { batches, ending, .. } = follow(&space(0), 20, |_| 0.0, |_, _| 0.1);
+    let sizes: Vec<usize> = batches.iter().map(|batch| batch.scores.len()).collect();
+    assert_eq!((&sizes[..], ending.open), (&[5, 3, 2, 4][..], vec![]));
+}
+
+#[test]
+fn a_budget_below_the_start_is_refused() {
+    // 8 of the plain simulator at the start and 2 at its mode, 6 and 2 of each effect, and 4
+    let error = Plan::new(space(3), 37, 1).unwrap_err();
+    assert_eq!(error.to_string(), "the simulator has to be run 38 times at least");
+    assert!(Plan::new(space(3), 38, 1).is_ok());
+    follow(&space(3), 38, |_| 0.0, |_, _| 0.1);
+}
+
+/// The same seed gives the same runs, another one others.
+#[test]
+fn a_plan_follows_from_its_seed() {
+    let start = |seed| match Plan::new(space(2), 100, seed).unwrap().next(Vec::new()) {
+        Step::Run(batches) => batches,
+        other => panic!("{other:?}"),
+    };
+    assert_eq!(start(1), start(1));
+    assert_ne!(start(1), start(2));
+}
