@@ -143,7 +143,7 @@ fn indices_of_a_linear_model() {
     close(alone.first, 9.0 / 16.0, alone.standard_error[0]);
     close(c.share.unwrap(), 9.0 / 16.0, 1e-12);
     assert_eq!((d.sobol.unwrap().total, d.alternatives.len()), (0.0, 0));
-    assert_eq!(found.warnings.iter().filter(|w| w.code == "drawn-together").count(), 1);
+    assert_eq!(found.warnings.iter().filter(|w| w.code() == "drawn-together").count(), 1);
     // with the dependence of the ranks kept, a normal b has nearly the same interval
     assert!(!b.alternatives.is_empty() && b.halved.is_some());
 }
@@ -186,7 +186,7 @@ fn variants_without_figures() {
     let input = &output(&found).inputs[0];
     assert!(input.doubled.unwrap().figures.is_none() && input.doubled.unwrap().change.is_none());
     assert!(input.halved.unwrap().figures.is_some());
-    assert!(found.warnings.iter().any(|warning| warning.code == "variant-undefined"));
+    assert!(found.warnings.iter().any(|warning| warning.code() == "variant-undefined"));
     let heavy = r#""x": {"distribution": "t", "mean": 1, "scale": 1, "dof": 1.5}"#;
     let found = audited(&model(heavy, "x", ""), 40_000);
     let of = output(&found);
