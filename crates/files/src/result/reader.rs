@@ -111,7 +111,7 @@ impl Reader<'_> {
             self.report("result", DiagnosticKind::NotResult { file });
             return None;
         }
-        if let Some(found) = content.get("format").filter(|of| **of != Value::from(FORMAT)) {
+        if let Some(found) = content.get("format").filter(|of| **of != FORMAT) {
             let found = found.as_str().map_or_else(|| found.to_string(), str::to_owned);
             self.report("format", DiagnosticKind::UnknownFormat { found });
             return None;
@@ -213,7 +213,7 @@ impl Reader<'_> {
             );
             return note("result-without-digest", text);
         };
-        if *stated == Value::from(seal::digest(content)) {
+        if *stated == seal::digest(content) {
             return (Vec::new(), true);
         }
         let mut changed = seal::changed(content);
