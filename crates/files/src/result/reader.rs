@@ -112,7 +112,7 @@ impl Reader<'_> {
             self.report("result", DiagnosticKind::NotResult { file });
             return None;
         }
-        if let Some(found) = content.get("format").filter(|of| **of != Value::from(FORMAT)) {
+        if let Some(found) = content.get("format").filter(|of| **of != FORMAT) {
             let found = found.as_str().map_or_else(|| found.to_string(), str::to_owned);
             self.report("format", DiagnosticKind::UnknownFormat { found });
             return None;
@@ -210,7 +210,7 @@ impl Reader<'_> {
         let Some(stated) = content.get(seal::DIGEST) else {
             return note(fact!("result-without-digest", file));
         };
-        if *stated == Value::from(seal::digest(content)) {
+        if *stated == seal::digest(content) {
             return (Vec::new(), true);
         }
         let mut changed = seal::changed(content);

@@ -181,7 +181,7 @@ impl Grid {
                 Some(last) if last.columns.len() == naming || last.word_width() + gap <= width => {
                     last.columns.push(column.clone());
                 }
-                _ => grids.push(of([named, &[column.clone()]].concat())),
+                _ => grids.push(of([named, std::slice::from_ref(column)].concat())),
             }
         }
         grids.iter().map(|grid| grid.pages(width)).collect::<Vec<_>>().join("\n")
