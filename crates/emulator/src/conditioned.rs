@@ -1,10 +1,9 @@
 //! Points and lengths made ready for the values of functions at the points.
 
-use gumption_engine::linalg::dot;
 use gumption_engine::linalg::packed::{self, triangle};
+use gumption_engine::linalg::{add_multiple, dot};
 
 use crate::matern::{correlation, inverse_squares};
-use crate::singular::add_multiple;
 use crate::trend::{Trend, functions};
 
 /// What is added to the correlation of each value with itself, so that rounding leaves it positive definite.

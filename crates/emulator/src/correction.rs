@@ -1,10 +1,11 @@
 //! What a hypothesis adds to those with fewer effects.
 
+use gumption_engine::linalg::add_multiple;
+
 use crate::axis::Coordinate;
 use crate::focus::Focus;
 use crate::layer::{Layer, Reach};
 use crate::prediction::Prediction;
-use crate::singular::add_multiple;
 
 /// The corrections of a hypothesis: a layer that knows them everywhere, and where the posterior is narrow one
 /// that knows them there. The local one serves among its runs, the other far from them: hypotheses with more

@@ -2,12 +2,13 @@
 
 use std::collections::BTreeMap;
 
+use gumption_engine::linalg::add_multiple;
+
 use crate::axis::Coordinate;
 use crate::correction::Correction;
 use crate::focus::Focus;
 use crate::layer::Reach;
 use crate::prediction::Prediction;
-use crate::singular::add_multiple;
 use crate::space::Space;
 use crate::unseen::UnseenError;
 

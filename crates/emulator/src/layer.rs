@@ -1,12 +1,14 @@
 //! One layer of an emulator: corrections of all rows as functions of a hypothesis' unknowns.
 
+use gumption_engine::linalg::add_multiple;
+
 use crate::axis::Coordinate;
 use crate::focus::Focus;
 use crate::frame::Frame;
 use crate::lengths::likeliest_lengths;
 use crate::prediction::Prediction;
 use crate::process::GaussianProcess;
-use crate::singular::{SingularVectors, add_multiple};
+use crate::singular::SingularVectors;
 use crate::trend::Trend;
 
 /// Singular vectors are kept until what is left has this norm over all rows, in u: the root mean square over

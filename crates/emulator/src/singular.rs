@@ -1,6 +1,6 @@
 //! Few directions that hold all of many rows: singular vectors.
 
-use gumption_engine::linalg::{Eigen, dot};
+use gumption_engine::linalg::{Eigen, add_multiple, dot};
 use gumption_engine::number::largest_first;
 use nalgebra::DMatrix;
 
@@ -84,13 +84,6 @@ impl SingularVectors {
             add_multiple(&mut rest, -along, direction);
         }
         rest
-    }
-}
-
-/// Adds a multiple of a vector to another.
-pub(crate) fn add_multiple(sum: &mut [f64], factor: f64, terms: &[f64]) {
-    for (sum, term) in sum.iter_mut().zip(terms) {
-        *sum += factor * term;
     }
 }
 

@@ -32,7 +32,7 @@ pub fn dot(x: &[f64], y: &[f64]) -> f64 {
 }
 
 /// Adds a multiple of a vector to another.
-pub(crate) fn add_multiple(sum: &mut [f64], factor: f64, terms: &[f64]) {
+pub fn add_multiple(sum: &mut [f64], factor: f64, terms: &[f64]) {
     for (sum, term) in sum.iter_mut().zip(terms) {
         *sum += factor * term;
     }
