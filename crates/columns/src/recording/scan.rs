@@ -494,6 +494,14 @@ impl Clock {
     }
 }
 
+/// A sample of a channel.
+fn at(sample: u64, channel: &str) -> Fact {
+    match channel == super::THE_TIME {
+        true => fact!("sample-of-time", sample),
+        false => fact!("sample-of-channel", sample, channel),
+    }
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -555,13 +563,5 @@ mod tests {
         assert!((late.of_middle() - 3e-7).abs() < 2e-9, "{}", late.of_middle());
         // with a stated rate only the middle counts
         assert!((late.start(1000.0) - 5.0 - 3e-7).abs() < 1e-9);
-    }
-}
-
-/// A sample of a channel.
-fn at(sample: u64, channel: &str) -> Fact {
-    match channel == super::THE_TIME {
-        true => fact!("sample-of-time", sample),
-        false => fact!("sample-of-channel", sample, channel),
     }
 }
