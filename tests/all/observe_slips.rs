@@ -215,7 +215,7 @@ fn a_heading_in_g_is_standard_gravity_where_the_recipe_says_so() {
     recorded(folder, "t [s],acc [g]", seconds, |_, value| value);
     let grams = recipe(&json!({"column": 2, "unit": "g"}));
     let note = note(folder, &grams, "grams");
-    assert!(note.contains("that of a mass") && note.contains("`g_n`"), "{note}");
+    assert!(note.contains("the unit of a mass") && note.contains("`g_n`"), "{note}");
 }
 
 #[test]

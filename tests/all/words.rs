@@ -24,7 +24,7 @@ fn sources(folder: &Path, found: &mut Vec<String>) {
 fn facts(source: &str) -> Vec<(String, Vec<String>)> {
     let code: String = source.lines().filter(|line| !line.trim().starts_with("//")).collect();
     let calls = code.split("fact!(").skip(1);
-    calls.filter_map(|call| key_and_arguments(call)).collect()
+    calls.filter_map(key_and_arguments).collect()
 }
 
 fn key_and_arguments(call: &str) -> Option<(String, Vec<String>)> {

@@ -39,7 +39,7 @@ enum AlternativeShape {
 }
 
 impl AlternativeShape {
-    /// The distribution with this standard deviation (for a t distribution distribution: scale) and mean.
+    /// The distribution with this standard deviation (for a t distribution: scale) and mean.
     fn with_std(self, mean: f64, std: f64) -> Result<Distribution, Invalid> {
         let half_width = match self {
             Self::Normal | Self::T(_) => 2.0 * std,

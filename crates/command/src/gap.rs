@@ -37,7 +37,7 @@ pub(super) struct Gap {
 /// The format of the answer.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
 enum GapFormat {
-    /// A text text page with plots
+    /// A text page with plots
     Table,
     /// An HTML page with figures, in one file
     Html,

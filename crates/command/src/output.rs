@@ -120,7 +120,7 @@ pub(super) fn open<const N: usize>(
     Ok(opened)
 }
 
-/// Checks that every file is written only only once, and no input is overwritten.
+/// Checks that every file is written only once, and no input is overwritten.
 fn check(asked: &[FileOption<'_>], read: &[PathBuf]) -> Result<(), Failure> {
     let wanted: Vec<(&str, &Path, Identity)> = asked
         .iter()

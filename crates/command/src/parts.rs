@@ -69,7 +69,7 @@ impl Blocks {
     }
 }
 
-/// A requested requested part.
+/// A requested part.
 pub(super) struct AskedPart<'a> {
     pub(super) blocks: &'a Blocks,
     pub(super) partial: &'a Path,

@@ -132,7 +132,7 @@ impl<A: Into<Argument>> From<Option<A>> for Argument {
 /// A [`Fact`](crate::fact::Fact): its key, then its arguments by name.
 ///
 /// ```
-/// let (trials, needed) = (100, 200_000);
+/// let (trials, needed) = (100_u64, 200_000_u64);
 /// let fact = gumption_engine::fact!("few-trials", trials, probability = 0.95, needed);
 /// assert_eq!(fact.code(), "few-trials");
 /// assert_eq!(fact.arguments.len(), 3);

@@ -24,7 +24,7 @@ use gumption_engine::fact::{Argument, Fact};
 use gumption_engine::model::Quantity;
 use gumption_engine::model::formula::Formula;
 use gumption_engine::number::{elementary, largest_first};
-use gumption_engine::task::{Coverage, Row};
+use gumption_engine::task::Row;
 use gumption_inference::discrepancy::Discrepancy;
 use gumption_inference::latent::Role;
 use gumption_inference::noise::noise_model::NoiseModel;
@@ -53,14 +53,6 @@ impl DiagnosisOptions {
     /// Random numbers with this seed.
     pub fn new(seed: u64) -> Self {
         Self { seed }
-    }
-}
-
-/// Coverage probability of the intervals of a case.
-pub(crate) fn coverage(case: &Case) -> f64 {
-    match case.task.settings.coverage {
-        Coverage::Usual => 0.95,
-        stated => stated.probability(),
     }
 }
 
@@ -132,7 +124,7 @@ fn diagnosed(
     let regions =
         if effort.is_stopped() { Vec::new() } else { scan::regions(&setup, &with_rows, seed) };
     progress(0.7);
-    let probability = coverage(case);
+    let probability = case.coverage_probability();
     let (mut shrinkage, rows) =
         shrink::shrinkage(&setup, &discrepancy, &posterior, &correction, &variances, seed, stop);
     shrinkage.shares = shares;

@@ -64,7 +64,7 @@ pub fn select_model(case: &Case, seed: u64) -> Result<ModelSelection, OverrideEr
     let group = weighed.indistinguishable();
     Ok(ModelSelection {
         most_probable: weighed.most_probable(&group, &weighed.shares()),
-        hypotheses: hypotheses(&weighed.setup, &weighed.posterior, super::diagnose::coverage(case)),
+        hypotheses: hypotheses(&weighed.setup, &weighed.posterior, case.coverage_probability()),
         predicted: prediction(
             &weighed.setup,
             &weighed.discrepancy,

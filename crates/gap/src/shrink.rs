@@ -6,7 +6,6 @@ use gumption_engine::parallel;
 
 use super::composed::Compositions;
 use super::departure_prediction;
-use super::diagnose::coverage;
 use super::diagnosis::{RowGap, Shrinkage, Shrunk, ValueGap};
 use gumption_engine::distribution::StreamKey;
 use gumption_engine::number::{ascending, elementary};
@@ -165,7 +164,7 @@ pub(crate) fn shrinkage(
     };
     let shrinkage = Shrinkage {
         shares: Vec::new(),
-        rms_after_interval: interval(&after2, coverage(setup.case), seed),
+        rms_after_interval: interval(&after2, setup.case.coverage_probability(), seed),
         meaningful: all.rms_before * all.rms_before - 1.0 >= MEANINGFUL * MEANINGFUL,
         claimed_fraction: claimed,
         chi2_per_dof: [

@@ -93,11 +93,11 @@ impl<'c> Weighed<'c> {
         let prior_conflict = weighing::most_probable_widths(&weighings).widened().is_some();
         let hidden = prior_widths::hidden(&weighings);
         let prior_conflicts =
-            prior_conflict::conflicts(case, &weighings, super::diagnose::coverage(case));
+            prior_conflict::conflicts(case, &weighings, case.coverage_probability());
         let noise = WeighedNoise::of(&weighings);
         let departure = departure::forms(&weighings);
         let (composed, compositions) = composed(&weighings);
-        let coverage = super::diagnose::coverage(case);
+        let coverage = case.coverage_probability();
         let unlisted = unlisted::explaining(case, &weighings, seed, coverage);
         let (setup, discrepancy, posterior) = over_noises::summed(weighings);
         let places = 0..posterior.hypotheses.len();

@@ -3,7 +3,7 @@
 use crate::{Effect, History, OverridableModel, OverrideError, Replication};
 use gumption_engine::distribution::Distribution;
 use gumption_engine::model::Program;
-use gumption_engine::task::Task;
+use gumption_engine::task::{Coverage, Task};
 use gumption_units::Unit;
 
 /// A model with measured data and candidate effects.
@@ -80,6 +80,14 @@ pub struct Prior {
 }
 
 impl Case {
+    /// Coverage probability of the intervals of its answer.
+    pub fn coverage_probability(&self) -> f64 {
+        match self.task.settings.coverage {
+            Coverage::Usual => 0.95,
+            stated => stated.probability(),
+        }
+    }
+
     /// Checks the data and the priors, and that every effect, and every pair that is among the
     /// hypotheses, can act on the model.
     ///

@@ -15,7 +15,7 @@ use crate::tree::{self, PathStep};
 #[derive(Clone, Debug, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub(crate) struct Edit {
-    /// The path of the changed value value.
+    /// The path of the changed value.
     path: Vec<PathStep>,
     /// What it becomes.
     #[serde(default, with = "given")]
@@ -49,7 +49,7 @@ mod given {
 }
 
 impl Edit {
-    /// Sets a value,, existing or new.
+    /// Sets a value, existing or new.
     pub(crate) fn set(path: Vec<PathStep>, value: serde_json::Value) -> Self {
         Self { value: Some(value), ..Self::of(path) }
     }

@@ -108,12 +108,7 @@ impl Sheet {
     ) {
         let cells = cells.into_iter().collect();
         let (header, narrow, values) = (header.to_owned(), None, Vec::new());
-        self.columns.push(SheetColumn {
-            header, narrow,
-            cells,
-            values,
-            kind, aside: false,
-        });
+        self.columns.push(SheetColumn { header, narrow, cells, values, kind, aside: false });
     }
 
     /// Gives the last column another header for pages that are too narrow.

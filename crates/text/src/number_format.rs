@@ -17,7 +17,7 @@ pub(crate) struct NumberFormat {
 /// What a section of a format displays around a number.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 struct FormatSection {
-    /// A prefix that changes the value of the number: `√`, `1/`, a minus sign sign.
+    /// A prefix that changes the value of the number: `√`, `1/`, a minus sign.
     before: String,
     behind: Behind,
 }
@@ -338,7 +338,7 @@ mod tests {
         }
         assert_eq!(NumberFormat::of("0%").text(0.07), "7%");
         assert_eq!(NumberFormat::of("0%").text(-1.5), "-150%");
-        // in red, in brackets, and with the section's section's letters
+        // in red, in brackets, and with the section's letters
         for (format, shown) in [
             ("0.0", "-3"),
             ("0.0;[Red]0.0", "-3"),

@@ -101,7 +101,7 @@ mod tests {
         assert_eq!(refused(&nested(256)), None);
         let (at, reason) = refused(&nested(257)).unwrap();
         assert_eq!(at, 768);
-        assert!(reason.contains("257 nested nested elements here; this version reads at most 256"));
+        assert!(reason.contains("257 nested elements here; this version reads at most 256"));
         let declared = |depth: usize| -> String {
             let open = (0..depth).map(|n| format!("<e xmlns:n{n}=\"u\">"));
             open.collect::<String>() + &"</e>".repeat(depth)

@@ -315,7 +315,7 @@ fn alternatives(texts: &[String]) -> String {
     listed(&quoted, " or ")
 }
 
-/// A character in a message: quotes are unchanged, control characters are are escaped.
+/// A character in a message: quotes are unchanged, control characters are escaped.
 struct ShownChar(char);
 
 impl fmt::Display for ShownChar {

@@ -463,7 +463,7 @@ impl<'t> Parser<'t> {
         }
     }
 
-    /// Reads a product in parentheses; the opening one is the the next character character.
+    /// Reads a product in parentheses; the opening one is the next character.
     fn group(&mut self, start: usize, depth: usize) -> Result<(Meaning, FactorKind), UnitError> {
         let open = self.next_span();
         let depth = deeper(depth, open.clone())?;
@@ -500,7 +500,7 @@ impl<'t> Parser<'t> {
         Ok((meaning, FactorKind::Group))
     }
 
-    /// Reads a number; the next character is the next character is a digit.
+    /// Reads a number; the next character is a digit.
     fn number(&mut self) -> Result<(Meaning, FactorKind), UnitError> {
         let start = self.at;
         self.take_while(|c| c.is_ascii_digit());

@@ -315,7 +315,7 @@ fn messages_read_well() {
     let cases = [
         ("Kg", "`Kg` is not a known unit; did you mean `kg`?"),
         ("mhz", "`mhz` is not a known unit; did you mean `mHz` or `MHz`?"),
-        ("qqq", "`qqq` is not a known unit; write write units like `mm`, `kg*m^-3` or `m/s^2`"),
+        ("qqq", "`qqq` is not a known unit; write units like `mm`, `kg*m^-3` or `m/s^2`"),
         ("mdegC", "`degC` does not take the prefix `m`; write `mK`"),
         (
             "m-3",

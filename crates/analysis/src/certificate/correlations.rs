@@ -61,7 +61,7 @@ pub(super) fn between(
     (matrix, spread)
 }
 
-/// Contributions c u to a result,, by unknown value.
+/// Contributions c u to a result, by unknown value.
 type ContributionsByValue = BTreeMap<usize, f64>;
 
 /// The unknown values behind all rows.

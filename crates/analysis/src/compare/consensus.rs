@@ -156,7 +156,7 @@ fn moment(results: &CorrelatedResults, chi_squared: f64) -> Option<f64> {
 }
 
 /// tau^2 of Mandel and Paule, at which chi-squared is n - 1; chi-squared decreases with tau. 0 if
-/// chi-squared is not chi-squared is not above n - 1 as stated.
+/// chi-squared is not above n - 1 as stated.
 fn iterated(results: &CorrelatedResults, everybody: &[usize]) -> Option<f64> {
     let expected = (results.values.len() - 1) as f64;
     let excess = |squared: f64| -> Option<f64> {

@@ -80,7 +80,7 @@ pub(super) enum Cause {
     Rest,
 }
 
-/// The parts of the changes of u^2 and k; they sum to the changes. Causes without effect are left left
+/// The parts of the changes of u^2 and k; they sum to the changes. Causes without effect are left
 /// out.
 pub(super) fn parts(sides: [&OutputFigures; 2]) -> Vec<(Cause, [f64; 2])> {
     let [first, second] = sides;

@@ -292,8 +292,7 @@ impl Problem<'_> {
             return Some(solution(&now));
         }
         let least: Vec<f64> = smooth.iter().map(|width| width.least).collect();
-        // the share of each input in the variance in the variance, divided by the square of its standard
-        //
+        // the share of each input in the variance, divided by the square of its standard
         // uncertainty
         let slopes = |u: &[f64]| self.slopes(&with(u), smooth, u);
         let at = |lambda: f64| -> Option<Vec<f64>> {

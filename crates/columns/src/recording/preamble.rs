@@ -151,8 +151,7 @@ impl Beginning {
     }
 
     /// The first line with the names of the columns and numbers below it, possibly with a line of
-    ///
-    /// units between them between them.
+    /// units between them.
     fn named(lines: &[PreambleLine], wanted: &[Wanted]) -> Option<(usize, Option<Vec<String>>)> {
         if !wanted.iter().any(|wanted| matches!(wanted.column, ColumnName::Name(_))) {
             return None;

@@ -80,7 +80,7 @@ pub(crate) fn notes(
         let digits = DIGITS + elementary::log10(far.clamp(1.0, FARTHEST)).ceil() as u32;
         let [x, low, high] = [x, low, high]
             .map(|x| Argument::Number(curve.x.after(&Shortest(to_digits(x, digits)).to_string())));
-        notes.push(Warning::new(name, fact!("extrapolation", name, x, low, high)));
+        notes.push(Warning::new(name, fact!("extrapolation.fit", name, x, low, high)));
     }
     notes
 }

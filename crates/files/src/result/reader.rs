@@ -11,11 +11,11 @@ use super::form::{DofStatus, FORMAT, InputForm, OutputForm, ResultForm};
 use super::{seal, siblings};
 use crate::context::Context;
 use gumption_analysis::diff::ByTrials;
-use gumption_engine::fact;
 use gumption_engine::distribution::{
     Constant, Distribution, Occasion, Origin, Root, RootCorrelation, RootFigures, RootName, Saved,
     SavedResult, Scores,
 };
+use gumption_engine::fact;
 use gumption_engine::task::Warning;
 use gumption_text::bytes::sha256;
 use gumption_text::json::{self, Json, Node};

@@ -98,7 +98,7 @@ fn with_prior(
     Some(words.with_prior.replace("{prior}", &about).replace("{p}", &alone))
 }
 
-/// The value on which the decision is based, if the based, if the stated one one would suggest another decision.
+/// The value on which the decision is based, if the stated one would suggest another decision.
 fn unrounded(row: &StatedRow<'_>, found: &Conformity, of: SentenceLanguage) -> Option<String> {
     let shown = row.statement.rounded_value()?.value();
     let alike = |limits: &Tolerance| limits.holds(shown) == limits.holds(found.estimate);
@@ -166,7 +166,7 @@ fn rule(row: &StatedRow<'_>, found: &Conformity, of: SentenceLanguage) -> String
     filled(words.guarded).replace("{guard}", &guard).replace("{limits}", &accepted)
 }
 
-/// Limits with their unit; rounded rounded to a position if it is given.
+/// Limits with their unit; rounded to a position if it is given.
 fn limits(row: &StatedRow<'_>, of: &Tolerance, place: Option<i32>, words: &Words) -> String {
     let [both, lower, upper] = words.limits;
     let (low, high) = (of.lower.map(|end| to(end, place)), of.upper.map(|end| to(end, place)));

@@ -123,7 +123,7 @@ pub(super) fn in_marks(mark: DecimalMark, numbers: &str) -> String {
 }
 
 /// The coverage probabilities and factors of rows whose uncertainty is the laboratory's capability,
-/// and and whether they refer to capabilities.
+/// and whether they refer to capabilities.
 fn raised_to(rows: &[StatedRow<'_>]) -> Vec<(Option<f64>, String, bool)> {
     let mut found = Vec::new();
     for row in rows.iter().filter(|row| row.is_raised()) {

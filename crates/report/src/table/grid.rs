@@ -74,7 +74,9 @@ impl Grid {
                 let header = column.narrow.as_ref().filter(|_| narrow).unwrap_or(&column.header);
                 match column.kind {
                     ColumnKind::Numbers => grid.numbers(header, cells),
-                    ColumnKind::Text | ColumnKind::Equations => grid.text_from(header, LEAST_TEXT, cells),
+                    ColumnKind::Text | ColumnKind::Equations => {
+                        grid.text_from(header, LEAST_TEXT, cells)
+                    }
                     ColumnKind::Units => grid.units(header, cells),
                 }
                 if let Some(last) = grid.columns.last_mut() {

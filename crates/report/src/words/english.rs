@@ -232,7 +232,7 @@ const FILES: Sentences = &[
         freedom, above its 95 % quantile {limit}; the form or the stated uncertainties are wrong"),
     ("fit-units-not-checked", "units are not checked in the formula of `{name}`: it computes with x in {x} \
         and y in {y}, and its parameters are plain numbers; give the parameters of `start` with units"),
-    ("extrapolation", "`{name}` is used at x = {x}, and its points lie from {low} to {high}: beyond them \
+    ("extrapolation.fit", "`{name}` is used at x = {x}, and its points lie from {low} to {high}: beyond them \
         nothing says that the form holds, and the stated uncertainty supposes that it does"),
     ("interval-uncertainty", "`{name}`: where `{file}` states a standard uncertainty with a coverage \
         interval, it is taken in place of U over k, whose digits are rounded"),

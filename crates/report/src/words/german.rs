@@ -248,7 +248,7 @@ const FILES: Sentences = &[
     ("fit-units-not-checked", "in der Formel von `{name}` werden Einheiten nicht geprüft: Sie rechnet mit x \
         in {x} und y in {y}, und ihre Parameter sind bloße Zahlen; die von `start` sind mit Einheiten \
         anzugeben"),
-    ("extrapolation", "`{name}` wird bei x = {x} verwendet, und die Punkte liegen zwischen {low} und {high}: \
+    ("extrapolation.fit", "`{name}` wird bei x = {x} verwendet, und die Punkte liegen zwischen {low} und {high}: \
         Darüber hinaus sagt nichts, dass die Form gilt, und die angegebene Unsicherheit setzt es voraus"),
     ("interval-uncertainty", "`{name}`: Wo `{file}` mit einem Überdeckungsintervall eine \
         Standardunsicherheit angibt, wird diese genommen und nicht U geteilt durch k, deren Stellen gerundet \

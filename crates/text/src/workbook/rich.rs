@@ -10,7 +10,7 @@ use super::attribute;
 /// The parts of one text, as they are read.
 #[derive(Clone, Debug, Default)]
 pub(super) struct RichTextParts {
-    /// The text before the current current part.
+    /// The text before the current part.
     before: String,
     text: String,
     /// The format of the part: `raised`, `lowered` or `struck through`.
@@ -20,7 +20,7 @@ pub(super) struct RichTextParts {
 }
 
 impl RichTextParts {
-    /// Processes an XML XML event between the beginning and the end of the text.
+    /// Processes an XML event between the beginning and the end of the text.
     pub(super) fn take(&mut self, event: &Event<'_>) {
         match event {
             Event::Start(element) | Event::Empty(element) => match element.local_name().as_ref() {

@@ -110,7 +110,7 @@ fn result(
 }
 
 /// The rows of each list of a result. A list in D-SI has a number for every row, so rows with and
-/// without a without a nominal value are in two lists; the list of the first row comes first.
+/// without a nominal value are in two lists; the list of the first row comes first.
 fn lists<'a>(rows: &[StatedRow<'a>]) -> Vec<Vec<StatedRow<'a>>> {
     let first = rows.first().map(|row| row.line.nominal.is_some());
     let is_as_first = |row: &StatedRow<'_>| Some(row.line.nominal.is_some()) == first;
@@ -256,7 +256,6 @@ fn probability(row: &StatedRow<'_>) -> String {
 }
 
 /// The distribution to which the factor belongs; `None` if the trials contradict it, even if its
-///
 /// interval has the same digits as theirs.
 fn distribution(row: &StatedRow<'_>) -> Option<&'static str> {
     let is_contradicted = row.found.validation.is_some_and(|v| v.gum_valid == Some(false));

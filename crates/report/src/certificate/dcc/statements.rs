@@ -41,7 +41,6 @@ pub(super) fn write(xml: &mut Xml, report: &CertificateReport<'_>, languages: &[
 }
 
 /// The reference type of a statement in the good practice, the norms that it follows, and whether
-///
 /// something conforms.
 type StatementKind<'a> = (Option<&'a str>, &'a [&'a str], Option<bool>);
 

@@ -213,7 +213,7 @@ fn form(column: &SheetColumn, width: usize) -> String {
     }
 }
 
-/// The number of digits that that a column of numbers reserves.
+/// The number of digits that a column of numbers reserves.
 fn number_format(column: &SheetColumn) -> String {
     let (mut whole, mut decimals, mut power) = (1, 0, None::<usize>);
     let (mut signed, mut power_signed) = (false, false);
