@@ -123,7 +123,7 @@ fn what_the_file_says_counts() {
     fs::write(folder.join("r.json"), other.to_string()).unwrap();
     let (code, said) = run(folder, &["run", "use.json"]);
     assert_eq!(code, Some(2), "{said}");
-    assert!(said.contains("does not say where"), "{said}");
+    assert!(said.contains("not in a part that can be named"), "{said}");
 }
 
 /// What the program writes is consistent: without its digest, too, a result of every ready model is

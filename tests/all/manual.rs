@@ -181,7 +181,7 @@ fn new_asks() {
 
     for (line, said) in [
         ("gumption new --equation 'y = a*'", "y: "),
-        ("gumption new --equation 'y'", "is no equation"),
+        ("gumption new --equation 'y'", "is not an equation"),
         ("gumption new --equation 'y = width' --input 'widht=m,normal'", "did you mean `width`?"),
         (
             "gumption new --equation 'y = a' --input 'a=m,normal,mean=1,sdt=2'",

@@ -111,7 +111,7 @@ fn every_command_knows_what_it_reads() {
     ] {
         let refused = folder.run(&arguments);
         assert_eq!(refused.status.code(), Some(2), "{arguments:?}: {}", said(&refused));
-        assert!(said(&refused).contains("would replace"), "{arguments:?}: {}", said(&refused));
+        assert!(said(&refused).contains("would overwrite"), "{arguments:?}: {}", said(&refused));
     }
     let refused = folder.run(&["diff", "m.json", "m.json", "--output", "m.json"]);
     assert_eq!(refused.status.code(), Some(2), "{}", said(&refused));

@@ -272,7 +272,7 @@ fn what_does_not_belong_together_is_refused() {
     fs::write(place.path().join("parts/b"), &whole).unwrap();
     // a part is no answer, and no answer takes the place of a part
     let (code, _, said) = place.ended(&["merge", "parts", "--output", "parts/b"]);
-    assert!(code == 2 && said.contains("would replace"), "{said}");
+    assert!(code == 2 && said.contains("would overwrite"), "{said}");
     let (code, _, said) = part("0..5", "c", &["--trials", "50000", "--pass", "parts/a"]);
     assert!(code == 2 && said.contains("next-pass"), "{said}");
     place.done(&["merge", "parts"]);
