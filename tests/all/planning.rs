@@ -173,8 +173,8 @@ fn a_target_that_only_the_law_of_propagation_meets_is_told() {
     assert!((by_trials / 0.0121 - 1.0).abs() < 0.02, "{few}");
     // both are rounded to four digits
     assert!((instead / (0.011 * 0.01055 / by_trials) - 1.0).abs() < 1e-3, "{few}");
-    assert!(said("U(pHx) <= 0.02", "200000").contains("met already: U(pHx) is 0.01055 now"));
-    assert!(said("U(pHx) <= 0.011", "0").contains("met already"));
+    assert!(said("U(pHx) <= 0.02", "200000").contains("already met: U(pHx) is 0.01055 now"));
+    assert!(said("U(pHx) <= 0.011", "0").contains("already met"));
 }
 
 /// A share of an estimate that its uncertainty hides is hardly what is wanted.

@@ -496,5 +496,5 @@ fn hostile_sheets_are_refused() {
     }
     let error = import_budget_bytes(Path::new("b.ods"), b"PK".to_vec(), &ImportOptions::default());
     let error = error.unwrap_err().to_string();
-    assert!(error.contains("a workbook of the format .ods, which is not read here"), "{error}");
+    assert!(error.contains("a workbook of the format .ods, which cannot be read"), "{error}");
 }
