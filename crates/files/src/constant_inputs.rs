@@ -158,7 +158,7 @@ mod tests {
         let circular = c.replace("4*k + 2 [V]", "2*c");
         let said = read_text("t", &file(&[&circular, a].join(", "), "a"), Path::new(""), &[]);
         let said = said.unwrap_err().to_string();
-        assert!(said.contains("`c` is a formula itself"), "{said}");
+        assert!(said.contains("`c` is itself a formula"), "{said}");
     }
 
     /// A replaced value counts, and dimensions are checked.

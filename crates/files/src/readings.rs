@@ -425,7 +425,7 @@ mod tests {
             "values": ["8.040036015459947 V", 10, 11.959963984540053]}"#);
         assert!((quantiles[0] - 10.0).abs() < 1e-9 && (quantiles[1] - 1.0).abs() < 1e-9);
         let error = model("\"5.0112 V ± 0.0046 V\"", "", &[]).unwrap_err().to_string();
-        assert!(error.contains("must be said"), "{error}");
+        assert!(error.contains("state the coverage"), "{error}");
     }
 
     /// Twelve readings in a straight line, and a random walk.

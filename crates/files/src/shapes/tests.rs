@@ -124,7 +124,7 @@ fn missing_and_impossible_fields_are_named() {
         ),
         ("\"distribution\": \"samples\"", "no values"),
         ("\"distribution\": \"samples\", \"values\": [1]", "at least two samples"),
-        ("\"distribution\": \"samples\", \"values\": [1], \"file\": \"a\"", "take one of them out"),
+        ("\"distribution\": \"samples\", \"values\": [1], \"file\": \"a\"", "exclude each other"),
         ("\"distribution\": \"lognormall\", \"mean\": 1", "did you mean `lognormal`"),
         ("\"distribution\": \"zipf\", \"mean\": 1", "`poisson-count`"),
     ] {
