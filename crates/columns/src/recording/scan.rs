@@ -68,7 +68,7 @@ pub(super) fn scan(reading: Reading) -> Result<Recording, String> {
         ));
     }
     let rate = scanned.rate(stated);
-    let of_preamble = passed_by.map(|text| Warning::new(&reading.name, fact!("preamble", text)));
+    let of_preamble = passed_by.map(|fact| Warning::new(&reading.name, fact));
     let mut warnings: Vec<Warning> = of_preamble.into_iter().collect();
     warnings.extend(scanned.suspects(rate.value, channels));
     if let Some(scatter) = scanned.clock.as_ref().map(Clock::scatter)
