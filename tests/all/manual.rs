@@ -220,7 +220,6 @@ fn examples_are_printed_and_run() {
 /// ended, what takes minutes and what a toolchain runs is left to other tests.
 #[cfg(unix)]
 #[test]
-#[ignore = "heavy: run by .ci/extra"]
 fn commands_of_the_first_page_run() {
     let folder = tempfile::tempdir().expect("a folder");
     let linked = |name: &str| {
