@@ -461,7 +461,7 @@ await test("a server that is gone", async (page, folder, _, server) => {
     filter: getComputedStyle(document.getElementById("results")).filter,
   }));
   if (!shown.stale || shown.filter !== "grayscale(1)") throw new Error("the old result looks like a new one");
-  if (!/does not answer any more/.test(shown.said) || !/no connection/.test(shown.state)) throw new Error(JSON.stringify(shown));
+  if (!/no longer answers/.test(shown.said) || !/no connection/.test(shown.state)) throw new Error(JSON.stringify(shown));
   page.errors = page.errors.filter(text => !/ERR_CONNECTION_REFUSED|ERR_EMPTY_RESPONSE|ERR_INCOMPLETE_CHUNKED|ERR_CONNECTION_RESET/.test(text));
 }, POWER);
 

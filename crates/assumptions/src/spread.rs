@@ -112,7 +112,7 @@ struct BatchTally {
 
 /// One change's values in one batch.
 #[derive(Clone, Debug)]
-struct Batch {
+struct TrialBatch {
     undefined: u64,
     outputs: Vec<BatchTally>,
 }
@@ -217,10 +217,11 @@ fn tallies(
     trials: u64,
     probability: f64,
     control: &Control<'_>,
-) -> Option<Vec<Vec<Batch>>> {
+) -> Option<Vec<Vec<TrialBatch>>> {
     let batch = |blocks: std::ops::Range<u64>| {
         let mut buffers = sampler.buffers();
-        let empty = Batch { undefined: 0, outputs: vec![BatchTally::default(); sampler.outputs()] };
+        let empty =
+            TrialBatch { undefined: 0, outputs: vec![BatchTally::default(); sampler.outputs()] };
         let mut tallies = Tallies { found: vec![empty; changes.len()], plans };
         for block in blocks {
             if control.is_stopped() {
@@ -266,7 +267,7 @@ fn defined(outputs: &mut [Column], count: usize) -> usize {
 
 /// Collects values into the tallies of a batch.
 struct Tallies<'a> {
-    found: Vec<Batch>,
+    found: Vec<TrialBatch>,
     plans: &'a [ChangePlan],
 }
 
@@ -365,7 +366,7 @@ impl BatchTally {
 
 /// The spreads under all changes; `None` if an endpoint was not kept.
 fn finish_all(
-    batches: &[Vec<Batch>],
+    batches: &[Vec<TrialBatch>],
     plans: &[ChangePlan],
     probability: f64,
 ) -> Option<Vec<Vec<Spread>>> {
@@ -379,13 +380,13 @@ fn finish_all(
 
 /// The spreads under one change; `None` if an endpoint was not kept.
 fn finish(
-    batches: &[Vec<Batch>],
+    batches: &[Vec<TrialBatch>],
     change: usize,
     plans: &[ChangePlan],
     probability: f64,
     baseline: Option<&Vec<Spread>>,
 ) -> Option<Vec<Spread>> {
-    let batches: Vec<&Batch> = batches.iter().filter_map(|batch| batch.get(change)).collect();
+    let batches: Vec<&TrialBatch> = batches.iter().filter_map(|batch| batch.get(change)).collect();
     let undefined: u64 = batches.iter().map(|batch| batch.undefined).sum();
     let plan = plans.get(change)?;
     let spread = |(output, plan): (usize, &OutputPlan)| {

@@ -19,9 +19,9 @@ use serde_json::{Value as Json, json};
 use std::path::Path;
 
 use crate::edit::{Edit, edited};
-use crate::language::Language;
 use crate::tree::{self, path_of};
 use crate::{LiveError, diagnostics, inputs, limited, outputs};
+use gumption_report::words::Language;
 
 /// Maximum number of trials over all rows, up to which the page refines in the background. The
 /// command line makes as many as a file requests.
@@ -278,12 +278,15 @@ fn results(
         warnings: &notes,
         provenance: &provenance,
     };
-    let language = asked.lang.of_words();
+    let language = asked.lang;
     let shown = Shown { histograms: &counts, convergence: &settled, language, ..Shown::default() };
     let size = if asked.narrow { FigureSize::Narrow } else { FigureSize::Page };
     let outputs = task.model.outputs.len();
     let output = asked.output.map(|wanted| if wanted < outputs { wanted } else { 0 });
-    let parts = asked.lang.parts(page_parts(&report, &shown, size, PageChoice { output, row }));
+    let parts = crate::language::parts(
+        page_parts(&report, &shown, size, PageChoice { output, row }),
+        language,
+    );
     let note = |warning| plain(&words::note(warning, language));
     Ok(json!({
         "results": outputs::results(&task, &evaluation, row, &parts),

@@ -13,8 +13,9 @@ use serde::Deserialize;
 use serde_json::{Value as Json, json};
 
 use crate::german::RowNames;
-use crate::language::Language;
+use crate::language;
 use crate::{LiveError, diagnostics, limited};
+use gumption_report::words::Language;
 
 /// A request of the call `audit`.
 #[derive(Debug, Deserialize)]
@@ -67,5 +68,5 @@ pub(crate) fn audited(
     let Some(found) = found else { return Ok(json!({ "html": null, "stopped": true })) };
     let provenance = Provenance::default();
     let report = AuditReport { task, audit: &found, warnings: &[], provenance: &provenance };
-    Ok(json!({ "html": asked.lang.part(fragment(&report), RowNames::OfFile) }))
+    Ok(json!({ "html": language::part(fragment(&report), RowNames::OfFile, asked.lang) }))
 }

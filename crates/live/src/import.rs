@@ -10,7 +10,7 @@ use serde::Deserialize;
 use serde_json::{Value as Json, json};
 
 use crate::LiveError;
-use crate::language::Language;
+use gumption_report::words::Language;
 
 /// A request of the call `import`.
 #[derive(Debug, Deserialize)]
@@ -33,7 +33,7 @@ pub(crate) fn imported(asked: &ImportRequest) -> Result<Json, LiveError> {
     let name = Path::new(&asked.name).file_name().unwrap_or_default();
     match import_budget_bytes(Path::new(name), bytes, &ImportOptions::default()) {
         Ok(made) => {
-            let language = asked.lang.of_words();
+            let language = asked.lang;
             let notes = made.notes.iter().map(|note| words::sentence(note, language));
             Ok(json!({"text": made.text, "notes": notes.collect::<Vec<_>>()}))
         }

@@ -1,49 +1,28 @@
-//! The language of the page's messages.
+//! The reports of the page in its language.
 
-use gumption_report::{PageParts, words};
-use serde::Deserialize;
+use gumption_report::PageParts;
+use gumption_report::words::Language;
 
 use crate::german::{self, RowNames};
 
-/// The languages of the page.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Deserialize)]
-#[serde(rename_all = "lowercase")]
-pub(crate) enum Language {
-    /// English, the language of the reports.
-    #[default]
-    En,
-    /// German.
-    De,
+/// Markup of a report in a language.
+pub(crate) fn part(html: String, names: RowNames, language: Language) -> String {
+    match language {
+        Language::English => html,
+        Language::German => german::part(&html, names),
+    }
 }
 
-impl Language {
-    /// Markup of a report in this language.
-    pub(crate) fn part(self, html: String, names: RowNames) -> String {
-        match self {
-            Self::En => html,
-            Self::De => german::part(&html, names),
-        }
+/// The parts of a page in a language.
+pub(crate) fn parts(mut parts: PageParts, language: Language) -> PageParts {
+    let said = |html: &mut String, names| *html = part(std::mem::take(html), names, language);
+    for output in &mut parts.outputs {
+        said(&mut output.verdict, RowNames::OfFile);
+        said(&mut output.budget, RowNames::OfFile);
+        said(&mut output.conclusions, RowNames::OfReport);
+        said(&mut output.comparison, RowNames::OfReport);
+        said(&mut output.distribution, RowNames::OfReport);
     }
-
-    /// The parts of a page in this language.
-    pub(crate) fn parts(self, mut parts: PageParts) -> PageParts {
-        for output in &mut parts.outputs {
-            for of_file in [&mut output.verdict, &mut output.budget] {
-                *of_file = self.part(std::mem::take(of_file), RowNames::OfFile);
-            }
-            for own in [&mut output.conclusions, &mut output.comparison, &mut output.distribution] {
-                *own = self.part(std::mem::take(own), RowNames::OfReport);
-            }
-        }
-        parts.together = self.part(parts.together, RowNames::OfFile);
-        parts
-    }
-
-    /// The same for the words of facts.
-    pub(crate) fn of_words(self) -> words::Language {
-        match self {
-            Self::En => words::Language::English,
-            Self::De => words::Language::German,
-        }
-    }
+    said(&mut parts.together, RowNames::OfFile);
+    parts
 }

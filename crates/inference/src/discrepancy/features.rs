@@ -42,13 +42,13 @@ pub(crate) struct Coordinates {
 /// How a condition's values are placed on a line: in proportion, or by their logarithm where the
 /// levels are spaced more evenly so.
 #[derive(Clone, Copy, Debug)]
-pub(crate) struct Axis {
+pub(crate) struct FeatureAxis {
     logarithmic: bool,
     lower: f64,
     range: f64,
 }
 
-impl Axis {
+impl FeatureAxis {
     fn linear(values: &[f64]) -> Self {
         let lower = values.iter().copied().fold(f64::INFINITY, f64::min);
         let upper = values.iter().copied().fold(f64::NEG_INFINITY, f64::max);
@@ -89,10 +89,10 @@ impl Axis {
 /// The axes of a case's conditions, and of what the model says of each output.
 #[derive(Clone, Debug)]
 pub struct Axes {
-    conditions: Vec<Axis>,
+    conditions: Vec<FeatureAxis>,
     /// How many of them do not follow from the order of the rows.
     measured: usize,
-    sims: Vec<Axis>,
+    sims: Vec<FeatureAxis>,
 }
 
 /// One row of conditions with what the model says there: of the data, or of new conditions.
@@ -107,11 +107,11 @@ impl Axes {
     pub(crate) fn new(case: &Case, data: &Data) -> Self {
         let conditions = (0..case.described()).map(|condition| {
             let values = data.ids.iter().map(|&id| case.task.rows[id].conditions[condition]);
-            Axis::spaced(values.collect())
+            FeatureAxis::spaced(values.collect())
         });
         let sims = (0..data.outputs.len()).map(|output| {
             let values: Vec<f64> = data.points.iter().map(|point| point.nominal[output]).collect();
-            Axis::linear(&values)
+            FeatureAxis::linear(&values)
         });
         let measured = case.measured();
         Self { conditions: conditions.collect(), measured, sims: sims.collect() }

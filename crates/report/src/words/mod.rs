@@ -11,19 +11,21 @@ use std::sync::LazyLock;
 
 use gumption_engine::fact::{Argument, Fact};
 use gumption_engine::task::Warning;
-use serde::Serialize;
+use serde::{Deserialize, Serialize};
 use serde_json::Value;
 
 use crate::answer::{list, object};
 use crate::plain;
 
 /// A language in which the facts of all rooms have words.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Deserialize)]
 pub enum Language {
     /// English.
     #[default]
+    #[serde(rename = "en")]
     English,
     /// German.
+    #[serde(rename = "de")]
     German,
 }
 

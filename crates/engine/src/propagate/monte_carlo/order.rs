@@ -11,11 +11,11 @@ pub(crate) struct Order {
     pub(crate) trials: u64,
     buckets: BucketPartition,
     /// Runs of kept values: first rank (from 1), index among the kept ones, length.
-    runs: Vec<Run>,
+    runs: Vec<OrderedRun>,
 }
 
 #[derive(Clone, Copy, Debug)]
-struct Run {
+struct OrderedRun {
     rank: u64,
     index: usize,
     length: usize,
@@ -39,7 +39,7 @@ impl Order {
     ) -> Self {
         let buckets = BucketPartition::new(path, kept, windows);
         let [low, median, high] = buckets.regions();
-        let run = |rank: u64, index: usize, length: usize| Run { rank, index, length };
+        let run = |rank: u64, index: usize, length: usize| OrderedRun { rank, index, length };
         let runs = if windows.keep_all() {
             vec![run(1, 0, low + median + high)]
         } else {

@@ -48,13 +48,13 @@ fn directions(dimension: usize) -> [u32; 32] {
 
 /// One coordinate of a scrambled net.
 #[derive(Clone, Debug)]
-pub(in crate::propagate) struct Coordinate {
+pub(in crate::propagate) struct NetCoordinate {
     /// `None` beyond the dimensions of the table, where numbers are random.
     directions: Option<[u32; 32]>,
     seed: u64,
 }
 
-impl Coordinate {
+impl NetCoordinate {
     /// The coordinate of a dimension in a randomization.
     pub(in crate::propagate) fn new(dimension: usize, seed: u64) -> Self {
         let known = dimension <= DIRECTIONS.len();
@@ -128,14 +128,14 @@ mod tests {
         for seed in 0..20 {
             let m = 8;
             for dimension in [0, 1, 5, 60, 127] {
-                let coordinate = Coordinate::new(dimension, seed);
+                let coordinate = NetCoordinate::new(dimension, seed);
                 let mut hit = vec![0; 1 << m];
                 for i in 0..1 << m {
                     hit[(coordinate.at(i) * f64::from(1 << m)) as usize] += 1;
                 }
                 assert!(hit.iter().all(|&hits| hits == 1), "{seed}, {dimension}");
             }
-            let (x, y) = (Coordinate::new(0, seed), Coordinate::new(1, seed));
+            let (x, y) = (NetCoordinate::new(0, seed), NetCoordinate::new(1, seed));
             for cut in 0..=m {
                 let mut hit = vec![0; 1 << m];
                 for i in 0..1 << m {
@@ -154,7 +154,7 @@ mod tests {
     fn every_point_is_uniform() {
         let n = 4096.0;
         for point in [0, 1, 100] {
-            let mean = (0..4096).map(|seed| Coordinate::new(3, seed).at(point)).sum::<f64>() / n;
+            let mean = (0..4096).map(|seed| NetCoordinate::new(3, seed).at(point)).sum::<f64>() / n;
             assert!((mean - 0.5).abs() < 5.0 / (12.0 * n).sqrt(), "{point}: {mean}");
         }
     }

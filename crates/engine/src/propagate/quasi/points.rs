@@ -91,12 +91,12 @@ impl NetInputs {
     }
 
     /// The coordinates of a randomization.
-    pub(super) fn coordinates(&self, seed: u64) -> Vec<net::Coordinate> {
-        self.dimensions.iter().map(|&d| net::Coordinate::new(d, seed)).collect()
+    pub(super) fn coordinates(&self, seed: u64) -> Vec<net::NetCoordinate> {
+        self.dimensions.iter().map(|&d| net::NetCoordinate::new(d, seed)).collect()
     }
 
     /// The values of all inputs at `COLUMN` points from `first` on.
-    pub(super) fn fill(&self, coordinates: &[net::Coordinate], first: u32, out: &mut [Column]) {
+    pub(super) fn fill(&self, coordinates: &[net::NetCoordinate], first: u32, out: &mut [Column]) {
         let mut scores: Vec<Column> = vec![Column::ZERO; out.len()];
         for (i, (coordinate, scores)) in coordinates.iter().zip(&mut scores).enumerate() {
             let set = self.sets.iter().find_map(|set| {

@@ -23,7 +23,7 @@ use super::SmallestRegion;
 use crate::linalg::packed;
 use crate::number::elementary::{exp, hypot, pow};
 use crate::parallel;
-use crate::propagate::quasi::Coordinate;
+use crate::propagate::quasi::NetCoordinate;
 use crate::special;
 use coordinates::Coordinates;
 use density::{Density, Mesh};
@@ -243,7 +243,8 @@ impl<'m> Side<'m> {
         let bounds = self.bounds(&densities, &levels);
         let box_volume: f64 = bounds[..order].iter().map(|[low, high]| high - low).product();
         let net = |seed: u64| {
-            let nets: Vec<Coordinate> = (0..order).map(|i| Coordinate::new(i, seed)).collect();
+            let nets: Vec<NetCoordinate> =
+                (0..order).map(|i| NetCoordinate::new(i, seed)).collect();
             let some = |first: u32| {
                 let mut sums = vec![[0.0; 3]; densities.len()];
                 for point in first..(first + TOGETHER as u32).min(POINTS) {
