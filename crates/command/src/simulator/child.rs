@@ -43,6 +43,8 @@ pub(crate) fn end_all() {
 pub(super) enum Written {
     /// All of its standard output, or a line of it.
     Answer(Vec<u8>),
+    /// A line, and something behind it that came with it.
+    MoreThanLine,
     /// More than the limit, in bytes.
     TooMuch(usize),
     /// Its standard output has ended.
@@ -206,6 +208,14 @@ impl Running {
         Some(status)
     }
 
+    /// Waits half a second for its end, which that of its input should bring.
+    pub(super) fn end_by_itself(&mut self) {
+        self.end_input();
+        let never = AtomicBool::new(false);
+        let until = Some(Instant::now() + GRACE);
+        let _ = self.status(&Patience { until, stops: [&never, &never] });
+    }
+
     /// Ends it: it is asked to end, and has half a second for that.
     pub(super) fn end(&mut self) {
         self.end_input();
@@ -233,7 +243,8 @@ impl Running {
         let text = String::from_utf8_lossy(&bytes);
         let lines: Vec<&str> = text.trim_end().lines().collect();
         let last = &lines[lines.len().saturating_sub(LINES)..];
-        last.iter().map(|line| printable(line)).collect::<Vec<String>>().join("\n")
+        let shown = last.iter().map(|line| printable(&line.replace('\t', "    ")));
+        shown.collect::<Vec<String>>().join("\n")
     }
 }
 
@@ -280,13 +291,15 @@ fn receive(stdout: impl Read, most: usize, answers: Answers, write: &SyncSender<
         };
         let written = if read.is_ok() && answer.len() > most {
             Written::TooMuch(most)
-        } else if is_end && answers == Answers::Lines && answer.is_empty() {
+        } else if answers == Answers::Lines && answer.is_empty() {
             return;
+        } else if answers == Answers::Lines && !stdout.buffer().is_empty() {
+            Written::MoreThanLine
         } else {
             Written::Answer(answer)
         };
-        let is_too_much = matches!(written, Written::TooMuch(_));
-        if write.send(written).is_err() || is_end || is_too_much {
+        let goes_on = !is_end && matches!(written, Written::Answer(_));
+        if write.send(written).is_err() || !goes_on {
             return;
         }
     }
@@ -363,3 +376,26 @@ fn end_group(id: u32, end: End) {
 
 #[cfg(not(unix))]
 fn end_group(_: u32, _: End) {}
+
+#[cfg(all(test, target_os = "linux"))]
+mod tests {
+    use super::*;
+    use nix::sys::signal::{SigSet, Signal};
+
+    /// Otherwise a program could not end what it starts: this process blocks the signals that it waits for.
+    #[test]
+    fn a_program_inherits_no_blocked_signals() {
+        let mut blocked = SigSet::empty();
+        blocked.add(Signal::SIGTERM);
+        blocked.thread_block().unwrap();
+        let words = ["grep", "SigBlk", "/proc/self/status"].map(str::to_owned);
+        let mut running = Running::start(&words, 1000, Answers::Whole).unwrap();
+        let never = AtomicBool::new(false);
+        let patience = Patience { until: None, stops: [&never, &never] };
+        let Written::Answer(found) = running.written(&patience).unwrap() else {
+            panic!("no answer")
+        };
+        assert_eq!(String::from_utf8(found).unwrap(), "SigBlk:\t0000000000000000\n");
+        assert!(running.status(&patience).unwrap().success());
+    }
+}

@@ -27,7 +27,7 @@ fn finish(
     let written = match running.written(patience)? {
         Written::Answer(written) => written,
         Written::TooMuch(most) => return Err(NoResult::too_much(most)),
-        Written::Nothing => Vec::new(),
+        Written::MoreThanLine | Written::Nothing => Vec::new(),
     };
     let status = running.status(patience)?;
     if let Some(found) = failure(status) {

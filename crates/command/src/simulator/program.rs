@@ -1,9 +1,9 @@
 //! A simulator that is a program.
 
 use std::ops::ControlFlow;
+use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
 use std::sync::mpsc::{self, Sender};
-use std::sync::{Arc, Mutex, PoisonError};
 use std::thread;
 use std::time::{Duration, Instant};
 
@@ -11,7 +11,7 @@ use gumption_emulator::{RunResult, Simulator, SimulatorCase};
 
 use super::call::{Call, FailedCall};
 use super::child::Patience;
-use super::lines::Lines;
+use super::lines::{Lines, Waiting};
 use super::process;
 use super::request::{Requests, shown};
 use super::words::words;
@@ -30,7 +30,7 @@ pub struct Program {
     timeout: Option<Duration>,
     stop: Arc<AtomicBool>,
     /// The programs that are kept between runs; `None` if each run starts its own.
-    kept: Option<Mutex<Vec<Lines>>>,
+    kept: Option<Waiting>,
 }
 
 impl Program {
@@ -54,7 +54,7 @@ impl Program {
     /// standard input ends.
     #[must_use]
     pub fn line_by_line(self) -> Self {
-        Self { kept: Some(Mutex::default()), ..self }
+        Self { kept: Some(Waiting::default()), ..self }
     }
 
     /// The same, with so many runs at once; 0 for as many as the machine has processors.
@@ -106,10 +106,9 @@ impl Program {
         let Some(kept) = &self.kept else {
             return process::run(&self.words, call, patience);
         };
-        let take = || kept.lock().unwrap_or_else(PoisonError::into_inner).pop();
-        let program = take().map_or_else(|| Lines::start(&self.words, call), Ok)?;
+        let program = kept.take().map_or_else(|| Lines::start(&self.words, call), Ok)?;
         let (outputs, program) = program.run(call, patience)?;
-        kept.lock().unwrap_or_else(PoisonError::into_inner).push(program);
+        kept.put(program);
         Ok(outputs)
     }
 }
