@@ -116,7 +116,7 @@ fn pendulum(drag: f64, pivot: f64, listed: &[&str]) -> Case {
         ),
         numbers: NumberForm::Coherent,
     };
-    let mut uniforms = [0.0; ROWS];
+    let mut uniforms = [0.0; 256];
     StreamKey::new(1, "noise").block(0).uniform(&mut uniforms);
     let noise = uniforms.into_iter().map(normal::quantile);
     let values: Vec<f64> = swing(0.6195, 0.3995, drag, pivot)
