@@ -51,7 +51,7 @@ pub use halton::space_filling_scores;
 pub use layer::{Layer, Reach};
 pub use lengths::likeliest_lengths;
 pub use lines::DamagedLine;
-pub use plan::Plan;
+pub use plan::{GOAL, Plan};
 pub use prediction::Prediction;
 pub use process::{Coefficient, GaussianProcess};
 pub use runs::{Run, RunHash, Runs, RunsError};

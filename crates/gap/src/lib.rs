@@ -22,6 +22,7 @@ mod row_drift;
 mod selection;
 mod shares;
 mod shrink;
+pub mod simulated;
 mod strength;
 mod turns;
 mod unit_slip;

@@ -35,6 +35,7 @@ pub mod scan;
 pub mod setup;
 pub mod shape;
 mod simulator;
+pub mod simulator_states;
 pub mod term_evidence;
 mod whitened;
 

@@ -5,16 +5,17 @@
 //! and everything else find the outputs where they would find somebody else's simulation. What their values
 //! are at the inputs and effects of a hypothesis says an emulator.
 
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, VecDeque};
 use std::sync::{Arc, Mutex, PoisonError};
 
 use gumption_emulator::{Emulator, Prediction, Space};
 use gumption_engine::model::{Quantity, variables};
-use gumption_engine::number::{COLUMN, Column};
+use gumption_engine::number::{COLUMN, Column, median};
 use gumption_units::Unit;
 
 use crate::data::Data;
 use crate::latent::Role;
+use crate::likelihood::Likelihood;
 use crate::{Candidate, Case};
 
 /// A simulator in the place of a model's formulas.
@@ -23,8 +24,11 @@ pub struct Simulator {
     space: Space,
     learnt: Option<Learnt>,
     /// What the emulator says of the plain simulator at the inputs that were asked for last.
-    plain: Mutex<Option<(Vec<u64>, Arc<Prediction>)>>,
+    plain: Mutex<VecDeque<(Vec<u64>, Arc<Prediction>)>>,
 }
+
+/// So many inputs are kept with what the plain simulator gives.
+const KEPT: usize = 16;
 
 /// An emulator of a simulator's outputs, and what they are counted in.
 #[derive(Debug)]
@@ -52,20 +56,32 @@ impl Simulator {
         Self { space, learnt: None, plain: Mutex::default() }
     }
 
-    /// The same after runs: `emulator` says what the outputs of all rows are, output after output, in units
-    /// that have the sizes `units`.
-    ///
-    /// # Panics
-    /// If the emulator has another number of rows than there are units.
-    pub fn with(&self, emulator: Emulator, units: Vec<f64>) -> Self {
-        assert_eq!(emulator.rows(), units.len(), "a unit for each value of a run");
+    /// The same after runs.
+    fn with(&self, emulator: Emulator, units: Vec<f64>) -> Self {
         let learnt = Some(Learnt { emulator, units });
         Self { space: self.space.clone(), learnt, plain: Mutex::default() }
     }
 
-    /// Its parameters.
+    /// What it is run with.
     pub fn space(&self) -> &Space {
         &self.space
+    }
+
+    /// The plain simulator at values of all inputs, in the units of its outputs, with derivatives by those that
+    /// vary; `None` before any run.
+    fn plain_at(&self, inputs: &[f64]) -> Option<Arc<Prediction>> {
+        let learnt = self.learnt.as_ref()?;
+        let key: Vec<u64> = inputs.iter().map(|value| value.to_bits()).collect();
+        let mut kept = self.plain.lock().unwrap_or_else(PoisonError::into_inner);
+        if let Some((_, plain)) = kept.iter().find(|(known, _)| *known == key) {
+            return Some(Arc::clone(plain));
+        }
+        let plain = Arc::new(learnt.plain(&self.space, inputs));
+        if kept.len() == KEPT {
+            kept.pop_front();
+        }
+        kept.push_back((key, Arc::clone(&plain)));
+        Some(plain)
     }
 
     /// The emulator, once there were runs.
@@ -88,6 +104,53 @@ impl Learnt {
 }
 
 impl Case {
+    /// The same after runs of its simulator: `emulator` says what the outputs of all rows are, output after
+    /// output, counted in `units` as [`Case::simulator_units`] has them. `None` in a case without a simulator
+    /// or with another number of values.
+    pub fn emulated(&self, emulator: Emulator, units: Vec<f64>) -> Option<Self> {
+        let simulator = self.simulator.as_ref()?;
+        let rows = self.task.rows.len();
+        let values = (self.simulated - 1) * rows;
+        if emulator.rows() != values || units.len() != values {
+            return None;
+        }
+        let mut case = self.clone();
+        let simulator = Arc::new(simulator.with(emulator, units));
+        case.simulator = Some(Arc::clone(&simulator));
+        let first = self.described();
+        for (number, row) in case.task.rows.iter_mut().enumerate() {
+            let variables = row.estimates();
+            let plain = simulator.plain_at(&variables[..simulator.space.inputs()])?;
+            for (place, value) in values_of_row(self, number).into_iter().enumerate() {
+                row.conditions[first + place] = plain.values[value];
+            }
+        }
+        Some(case)
+    }
+
+    /// What the outputs of a simulator are counted in, for each value of a run: the standard uncertainty of the
+    /// measured value, in the simulator's unit. Where it is not stated it is taken to be what neighbouring
+    /// values depart from straight lines by.
+    pub fn simulator_units(&self) -> Vec<f64> {
+        let rows = self.task.rows.len();
+        let slopes: Vec<Vec<Vec<f64>>> = (0..rows).map(|row| self.slopes(row)).collect();
+        let mut units = Vec::with_capacity(rows * self.simulated);
+        for place in 0..self.simulated.saturating_sub(1) {
+            let name = &self.model.conditions[self.described() + place].name;
+            let output = self.model.outputs.iter().position(|o| o.quantity.name == *name);
+            let observed =
+                output.and_then(|output| Some((output, self.observed[output].as_ref()?)));
+            let Some((output, observed)) = observed else {
+                units.extend(vec![1.0; rows]);
+                continue;
+            };
+            let estimated = || vec![scatter(&observed.values); rows];
+            let u = observed.standard_uncertainties.clone().unwrap_or_else(estimated);
+            units.extend(u.iter().zip(&slopes).map(|(u, slopes)| u / slopes[output][place].abs()));
+        }
+        units
+    }
+
     /// The effects of the simulator among candidates, in ascending order.
     pub fn simulator_effects(&self, effects: &[usize]) -> Vec<usize> {
         let own = |&effect: &usize| self.candidates[effect].simulator;
@@ -127,19 +190,7 @@ impl Case {
     /// What the plain simulator gives in a row, of a case with an emulator.
     fn simulated_at(&self, variables: &[f64]) -> Option<SimulatedAt<'_>> {
         let simulator = self.simulator.as_deref()?;
-        let learnt = simulator.learnt.as_ref()?;
-        let inputs = &variables[..simulator.space.inputs()];
-        let key: Vec<u64> = inputs.iter().map(|value| value.to_bits()).collect();
-        let mut last = simulator.plain.lock().unwrap_or_else(PoisonError::into_inner);
-        let plain = match &*last {
-            Some((known, plain)) if *known == key => Arc::clone(plain),
-            _ => {
-                let plain = Arc::new(learnt.plain(&simulator.space, inputs));
-                *last = Some((key, Arc::clone(&plain)));
-                plain
-            }
-        };
-        drop(last);
+        let plain = simulator.plain_at(&variables[..simulator.space.inputs()])?;
         let first = self.first_simulated();
         let values = values_of_row(self, row_of(self, variables));
         let mut variables = variables.to_vec();
@@ -193,6 +244,17 @@ impl Case {
         let own = first..first + self.simulated - 1;
         gradients.into_iter().map(|gradient| gradient[own.clone()].to_vec()).collect()
     }
+}
+
+/// What values scatter by about straight lines through their neighbours, at least a thousandth of what they
+/// span.
+fn scatter(values: &[f64]) -> f64 {
+    let bends = values.windows(3).map(|of| (of[0] - 2.0 * of[1] + of[2]).abs()).collect();
+    // of normal noise the median is 0.6745 standard deviations, each of root 6 ones of a value
+    let bend = median(bends).unwrap_or(0.0) / (0.6745 * 6.0f64.sqrt());
+    let least = values.iter().copied().fold(f64::INFINITY, f64::min);
+    let most = values.iter().copied().fold(f64::NEG_INFINITY, f64::max);
+    bend.max(1e-3 * (most - least)).max(f64::MIN_POSITIVE.sqrt())
 }
 
 /// The plain simulator in a row.
@@ -260,17 +322,33 @@ impl<'c> SimulatedOutputs<'c> {
         Some(Self { case, learnt, space, effects: own, sources })
     }
 
+    /// The values of the simulator's unknowns in a lane.
+    fn values(&self, roles: &[Role], scores: &[Column], lane: usize) -> Vec<f64> {
+        let value = |source: &Source| match *source {
+            Source::Estimate(value) => value,
+            Source::Role(place) => {
+                let map = roles[place].map();
+                map.map_or(f64::NAN, |map| map.value(scores[place].0[lane]))
+            }
+        };
+        self.sources.iter().map(value).collect()
+    }
+
+    /// The scores of the simulator's unknowns at points of a hypothesis.
+    pub(crate) fn scores(&self, likelihood: &Likelihood<'_>, points: &[Vec<f64>]) -> Vec<Vec<f64>> {
+        let of_chunk = |points: &[Vec<f64>]| -> Vec<Vec<f64>> {
+            let columns = likelihood.mixed(&likelihood.columns(points));
+            let values =
+                (0..points.len()).map(|lane| self.values(&likelihood.roles, &columns, lane));
+            values.map(|values| self.space.scores(&self.effects, &values)).collect()
+        };
+        points.chunks(COLUMN).flat_map(of_chunk).collect()
+    }
+
     /// The values of all rows for the first lanes of scores, output after output.
     pub(crate) fn lanes(&self, roles: &[Role], scores: &[Column], lanes: usize) -> Vec<Vec<f64>> {
         let of_lane = |lane: usize| {
-            let value = |source: &Source| match *source {
-                Source::Estimate(value) => value,
-                Source::Role(place) => {
-                    let map = roles[place].map();
-                    map.map_or(f64::NAN, |map| map.value(scores[place].0[lane]))
-                }
-            };
-            let values: Vec<f64> = self.sources.iter().map(value).collect();
+            let values = self.values(roles, scores, lane);
             let point = self.space.at_values(&self.effects, &values);
             let mut outputs = self.learnt.emulator.values(&self.effects, &point);
             outputs.iter_mut().zip(&self.learnt.units).for_each(|(value, unit)| *value *= unit);
