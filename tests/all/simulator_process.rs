@@ -4,6 +4,7 @@
 use std::fs;
 use std::ops::ControlFlow;
 use std::path::Path;
+use std::process::Stdio;
 use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::time::Duration;
@@ -12,9 +13,11 @@ use gumption_command::simulator::{KeptRuns, Program, design, made};
 use gumption_emulator::{
     RunResult, Simulator, SimulatorCase, SimulatorCondition, SimulatorQuantity,
 };
+use serde_json::Value;
 use tempfile::TempDir;
 
-use crate::process::until;
+use crate::process::{Command, until};
+use crate::support::command;
 
 fn case() -> SimulatorCase {
     let quantity =
@@ -80,7 +83,7 @@ fn failure(script: &str, limit: Option<Duration>) -> String {
 fn is_running(id: &str) -> bool {
     let id = id.trim();
     if !cfg!(target_os = "linux") {
-        let kill = crate::process::Command::new("kill").args(["-0", id]).output();
+        let kill = Command::new("kill").args(["-0", id]).output();
         return kill.unwrap().status.success();
     }
     // one that ended and that nobody waited for is still listed
@@ -418,4 +421,203 @@ fn kept_runs_are_read_as_runs_that_were_made() {
     runs.results(&simulator, &[vec![0.5, 0.1]]).unwrap();
     let found = made(folder.path(), &case()).unwrap();
     assert_eq!((&found.runs, found.notes.len()), (runs.runs(), 0));
+}
+
+/// A pendulum that loses energy as `exp(-drag*t)`, which the plain sim does not.
+const PENDULUM: &str = "import json, math, os, sys, time
+def answer(text):
+    request = json.loads(text)
+    parameters, times = request['parameters'], request['conditions']['t']
+    rate = math.sqrt(9.81/parameters['length'])
+    angle = [200*math.exp(-parameters['drag']*t)*math.cos(rate*t) for t in times]
+    return json.dumps({'angle': angle})
+def log(text):
+    with open(os.path.join(os.path.dirname(__file__), 'log'), 'a') as file:
+        file.write(text + '\\n')
+";
+
+const CASE: &str = r#"{
+    "inputs": {"length": {"unit": "m", "distribution": "normal", "mean": 0.5, "std": 0.001}},
+    "conditions": {"t": {"unit": "s"}},
+    "simulator": {"outputs": {"angle": "mrad"}},
+    "outputs": {"angle": {"unit": "mrad"}},
+    "observations": {
+        "file": "data.csv",
+        "columns": {"angle": {"value": "angle", "standard_uncertainty": 0.5}}
+    },
+    "effects": {
+        "air-drag": {"simulator": true, "parameters": {
+            "drag": {"unit": "1/s", "distribution": "rectangular", "lower": 0, "upper": 0.2}}},
+        "scale": {"overrides": {"angle": "angle*(1 + k)"}, "parameters": {
+            "k": {"unit": "1", "distribution": "normal", "mean": 0, "std": 0.01}}}
+    }
+}"#;
+
+/// The case with the data of a pendulum of 0.5005 m with a drag of 0.05 1/s, and the program.
+fn pendulum(program: &str) -> TempDir {
+    let folder = tempfile::tempdir().unwrap();
+    let mut data = "t,angle\n".to_owned();
+    for row in 0..60 {
+        let t = 0.05 * f64::from(row);
+        let angle = 200.0 * (-0.05 * t).exp() * ((9.81f64 / 0.5005).sqrt() * t).cos();
+        // a pattern for noise: its root mean square is 0.5
+        let noise = [0.7, -0.2, 0.1, -0.8, 0.3, 0.5, -0.6][row as usize % 7];
+        data += &format!("{t},{}\n", angle + noise);
+    }
+    fs::write(folder.path().join("data.csv"), data).unwrap();
+    fs::write(folder.path().join("case.json"), CASE).unwrap();
+    fs::write(folder.path().join("sim.py"), format!("{PENDULUM}{program}")).unwrap();
+    folder
+}
+
+fn gap(folder: &TempDir, arguments: &[&str]) -> Command {
+    let mut program = command();
+    program.current_dir(folder.path()).args(["gap", "case.json", "--runs", "40"]).args(arguments);
+    program
+}
+
+/// The answer in JSON, and standard error.
+fn diagnosed(folder: &TempDir, arguments: &[&str]) -> (Value, String) {
+    let done = gap(folder, &[arguments, &["--format", "json"]].concat()).output().unwrap();
+    let said = String::from_utf8(done.stderr).unwrap();
+    assert!(done.status.success(), "{said}");
+    (serde_json::from_slice(&done.stdout).unwrap(), said)
+}
+
+fn assert_drag(answer: &Value) {
+    assert_eq!(
+        answer["verdict"]["effects"],
+        serde_json::json!(["air-drag"]),
+        "{}",
+        answer["verdict"]
+    );
+    let drag = &answer["parameters"][0];
+    // 200 mrad fall by 14 % within 3 s: 60 rows of 0.5 mrad tell the drag within some 0.001 1/s
+    assert!((drag["estimate"].as_f64().unwrap() - 0.05).abs() < 0.005, "{drag}");
+}
+
+#[test]
+fn the_gap_of_a_program_is_diagnosed_and_its_runs_are_kept() {
+    let folder = pendulum("log('start')\nfor line in sys.stdin: print(answer(line), flush=True)");
+    let arguments = ["--simulator-lines", "python3 sim.py", "--keep", "runs"];
+    let (first, _) = diagnosed(&folder, &arguments);
+    assert_drag(&first);
+    assert_eq!(log(&folder), ["start"]);
+    // from the kept runs alone
+    let (again, said) = diagnosed(&folder, &["--simulator", "no-such-program", "--keep", "runs"]);
+    assert_eq!(again, first);
+    let note = "were made by `python3 sim.py`, further runs are made by `no-such-program`";
+    assert!(said.contains(note), "{said}");
+}
+
+#[test]
+fn ctrl_c_ends_the_programs_and_the_next_diagnosis_goes_on() {
+    let folder = pendulum(
+        "text = sys.stdin.read()
+log(str(os.getpid()))
+hangs = os.path.join(os.path.dirname(__file__), 'hangs')
+if os.path.exists(hangs) and len(open(hangs + '/../log').readlines()) > 5: time.sleep(600)
+print(answer(text))",
+    );
+    fs::create_dir(folder.path().join("hangs")).unwrap();
+    let arguments = ["--simulator", "python3 sim.py", "--keep", "runs", "--threads", "1"];
+    let mut program = gap(&folder, &arguments);
+    let child = program.stdout(Stdio::piped()).stderr(Stdio::piped()).spawn().unwrap();
+    until("a run that hangs", || log(&folder).len() == 6);
+    let kill = Command::new("kill").args(["-INT", &child.id().to_string()]).status();
+    assert!(kill.unwrap().success());
+    let done = child.wait_with_output().unwrap();
+    assert_eq!(done.status.code(), Some(130));
+    let said = String::from_utf8(done.stderr).unwrap();
+    assert_eq!(
+        said,
+        "note: interrupted after 5 runs, which are kept; the same command continues\n"
+    );
+    let id = log(&folder).pop().unwrap();
+    until("the end of the run that hangs", || !is_running(&id));
+    let kept = fs::read_to_string(folder.path().join("runs/runs.jsonl")).unwrap();
+    assert!(kept.lines().count() == 6 && kept.ends_with('\n'));
+
+    fs::remove_dir(folder.path().join("hangs")).unwrap();
+    let (answer, said) = diagnosed(&folder, &arguments);
+    assert_drag(&answer);
+    assert_eq!(said.matches("note").count(), answer["notes"].as_array().unwrap().len(), "{said}");
+    let all = fs::read_to_string(folder.path().join("runs/runs.jsonl")).unwrap();
+    assert!(all.starts_with(&kept));
+    // the heading stands for the run that was ended
+    assert_eq!(all.lines().count(), log(&folder).len());
+}
+
+#[test]
+fn runs_are_designed_and_made_elsewhere() {
+    let folder = pendulum("print(answer(sys.stdin.read()))");
+    let made = folder.path().join("made");
+    fs::create_dir(&made).unwrap();
+    let done = gap(&folder, &["--design", "made/parameters.csv"]).output().unwrap();
+    assert!(done.status.success() && done.stdout.is_empty() && done.stderr.is_empty());
+    let table = fs::read_to_string(made.join("parameters.csv")).unwrap();
+    assert_eq!(
+        (table.lines().count(), table.lines().next()),
+        (41, Some("run,length [m],drag [1/s]"))
+    );
+    for line in table.lines().skip(1) {
+        let cells: Vec<f64> = line.split(',').map(|cell| cell.parse().unwrap()).collect();
+        let angle = (0..60).map(|row| {
+            let t = 0.05 * f64::from(row);
+            200.0 * (-cells[2] * t).exp() * ((9.81 / cells[1]).sqrt() * t).cos()
+        });
+        let answer = serde_json::json!({ "angle": angle.collect::<Vec<f64>>() });
+        fs::write(made.join(format!("{}.json", cells[0])), answer.to_string()).unwrap();
+    }
+    let (answer, _) = diagnosed(&folder, &["--made", "made"]);
+    assert_drag(&answer);
+}
+
+#[test]
+fn options_of_a_simulator_need_one_another() {
+    let folder = pendulum("");
+    let plain = CASE.replace(
+        "\"simulator\": {\"outputs\": {\"angle\": \"mrad\"}},",
+        "\"equations\": {\"angle\": \"length/t\"},",
+    );
+    let plain = plain.replace(
+        "\"simulator\": true, ",
+        "\"overrides\": {\"angle\": \"angle + drag*t*length\"}, ",
+    );
+    fs::write(folder.path().join("plain.json"), plain).unwrap();
+    let failure = |arguments: &[&str]| {
+        let done =
+            command().current_dir(folder.path()).arg("gap").args(arguments).output().unwrap();
+        assert_eq!(done.status.code(), Some(2));
+        String::from_utf8(done.stderr).unwrap().lines().next().unwrap().to_owned()
+    };
+    let none = "gumption: the outputs of this case come from a simulator: add --simulator COMMAND to \
+                run it, --made FOLDER to use runs that were made, or --design FILE to write which runs \
+                to make";
+    assert_eq!(failure(&["case.json"]), none);
+    let shell = "gumption: `a | b` has `|`, but is started without a shell; write sh -c '...'";
+    assert_eq!(failure(&["case.json", "--simulator", "a | b"]), shell);
+    for arguments in [
+        &["--simulator", "a", "--simulator-lines", "b"][..],
+        &["--simulator", "a", "--made", "b"],
+        &["--simulator", "a", "--design", "b"],
+        &["--keep", "a", "--made", "b"],
+    ] {
+        let message = failure(&[&["case.json"], arguments].concat());
+        assert!(message.contains("cannot be used with"), "{message}");
+    }
+    for arguments in [["--keep", "a"], ["--run-timeout", "1"]] {
+        let message = failure(&[&["case.json"][..], &arguments].concat());
+        assert_eq!(message, "error: the following required arguments were not provided:");
+    }
+    let message = failure(&["case.json", "--simulator", "a", "--run-timeout", "0"]);
+    assert!(message.ends_with("a positive number of seconds is needed, such as 60 or 0.5"));
+    let message = failure(&["case.json", "--design", "a", "--runs", "10"]);
+    assert_eq!(message, "gumption: the simulator has to be run 14 times at least");
+    for option in ["--simulator", "--simulator-lines", "--made", "--design"] {
+        let message = failure(&["plain.json", option, "a"]);
+        let reason =
+            "needs a case whose outputs come from a simulator; this case has no `simulator`";
+        assert_eq!(message, format!("gumption: `{option}` {reason}"));
+    }
 }

@@ -86,6 +86,11 @@ impl KeptRuns {
         &self.runs
     }
 
+    /// Whether each run is written to a folder.
+    pub fn are_kept(&self) -> bool {
+        self.file.is_some()
+    }
+
     /// The results at all sets of parameters, in their order. Only the runs that were not made before are
     /// made now, each of them once; `None` for those that a stop left out. A result with a wrong number of
     /// values is a failed run.
