@@ -62,6 +62,7 @@ mod same_inputs;
 mod schema;
 mod seeds;
 mod seldom_meant;
+mod simulator_process;
 mod sizes;
 mod stack;
 mod strangers;

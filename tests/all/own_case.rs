@@ -52,6 +52,7 @@ fn a_gap_case_of_data_in_memory() {
         priors: vec![Normal::new(0.0, std).unwrap().into()],
         about: String::new(),
         source: String::new(),
+        simulator: None,
     };
     let noise = [1.0, -1.0, 0.5, -0.5];
     let values = volts.iter().zip(noise.iter().cycle());
@@ -66,6 +67,7 @@ fn a_gap_case_of_data_in_memory() {
             simulation_covariance: None,
         })],
         simulated: 0,
+        simulator: None,
         history: Vec::new(),
         reachable: Vec::new(),
         candidates: vec![

@@ -5,8 +5,10 @@ use std::sync::atomic::AtomicBool;
 
 use clap::{Args, ValueEnum};
 
+use super::exit::say_line;
 use super::options::{AnswerOptions, Case, CoverageOption, Interactive, Seed, Threads};
-use super::{CommandLine, Exit, Failure, progress, run, signals};
+use super::simulator::{SimulatedCase, SimulatedDiagnosis, SimulatorOptions};
+use super::{CommandLine, Exit, Failure, output, progress, run, signals};
 use gumption_engine::task::Row;
 use gumption_files::CaseFile;
 use gumption_gap as gap;
@@ -22,6 +24,8 @@ pub(super) struct Gap {
     /// Table of conditions (CSV) at which to compute the corrected prediction as well
     #[arg(long, value_name = "CONDITIONS.csv")]
     predict: Option<PathBuf>,
+    #[command(flatten)]
+    simulator: SimulatorOptions,
     #[command(flatten)]
     answer: AnswerOptions<GapFormat>,
     #[command(flatten)]
@@ -58,11 +62,33 @@ impl Gap {
         let at = self.predict.as_ref().map(|path| self.case.at(program, path)).transpose()?;
         let mut read = self.case.paths(&file);
         read.extend(self.predict.clone());
+        if let Some(path) = self.simulator.design() {
+            let [design] = output::open([("--design", Some(path))], &read)?;
+            let seed = self.seed.or(file.case.task.settings.seed);
+            let written = design.map(|to| self.simulator.write_design(&file.case, seed, to));
+            return written.unwrap_or(Ok(())).map(|()| Exit::Done);
+        }
         let place = self.answer.open(&read)?;
         // from the first output on, an interrupt gives the results so far
         let stop = signals::stop_flag();
         self.answer.say(&file.warnings);
-        let diagnosis = self.diagnose(&file, at.as_deref(), &stop)?;
+        let simulated = self.simulator.simulated(&file.case, &self.threads, &stop)?;
+        let diagnosis = match simulated {
+            None => self.diagnose(&file, at.as_deref(), &stop)?,
+            Some((simulated, notes)) => {
+                self.answer.note(notes);
+                let found = self.diagnose_simulated(&file, simulated)?;
+                // a reason may have lines of a program's standard error
+                let note = found.note.unwrap_or_default();
+                let mut lines = note.lines();
+                self.answer.note(lines.next());
+                lines
+                    .filter(|_| !self.answer.quiet)
+                    .for_each(|line| say_line(&format!("    {line}")));
+                let Some(diagnosis) = found.diagnosis else { return Ok(Exit::Interrupted) };
+                diagnosis
+            }
+        };
         let answer = match self.answer.format {
             GapFormat::Table => report::gap::table(&diagnosis, &self.provenance(&file)?),
             GapFormat::Html => page(report::gap::html(&diagnosis, &self.provenance(&file)?)),
@@ -88,6 +114,20 @@ impl Gap {
             files.push((name, bytes));
         }
         Ok(run::provenance(&file.source.text, &files))
+    }
+
+    fn diagnose_simulated(
+        &self,
+        file: &CaseFile,
+        simulated: SimulatedCase,
+    ) -> Result<SimulatedDiagnosis, Failure> {
+        let options = gap::DiagnosisOptions::new(self.seed.or(file.case.task.settings.seed));
+        let bar = progress::share(self.answer.quiet);
+        let told = |share: f64| progress::tell(&bar, share);
+        let diagnose = || simulated.diagnose_with(&file.case, options, &told);
+        let found = self.threads.install(diagnose);
+        bar.finish_and_clear();
+        found
     }
 
     fn diagnose(

@@ -38,6 +38,7 @@ mod save;
 mod schema;
 mod shared_draws;
 mod signals;
+pub mod simulator;
 mod surroundings;
 mod verify;
 

@@ -9,6 +9,7 @@ use std::path::{Path, PathBuf};
 use std::sync::atomic::{AtomicBool, AtomicU8, Ordering};
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 
+use super::simulator;
 use super::surroundings::in_call;
 
 /// A shell adds this to the number of the signal that ended a program.
@@ -93,6 +94,7 @@ fn received(number: u8) {
         return;
     }
     let _whole = whole();
+    simulator::end_all();
     lock(&TEMPORARY).iter().for_each(|path| remove(path));
     std::process::exit(i32::from(exit_code()));
 }
@@ -107,6 +109,7 @@ pub(super) fn end(code: i32) {
         }
         free
     });
+    simulator::end_all();
     if let Ok(temporary) = TEMPORARY.try_lock() {
         temporary.iter().for_each(|path| remove(path));
     }

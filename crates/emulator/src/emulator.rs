@@ -95,6 +95,11 @@ impl Emulator {
         &self.space
     }
 
+    /// Number of rows of all outputs together.
+    pub fn rows(&self) -> usize {
+        self.rows
+    }
+
     /// Learns from runs of a hypothesis, and where its posterior is if that is known: what the
     /// hypothesis adds, then what all those add that have more effects.
     pub fn learn(
@@ -170,6 +175,11 @@ impl Emulator {
     /// What a hypothesis adds to those with fewer effects, if it was run.
     pub fn correction(&self, effects: &[usize]) -> Option<&Correction> {
         self.known.get(effects)?.correction.as_ref()
+    }
+
+    /// The hypotheses that were run.
+    pub fn hypotheses(&self) -> impl Iterator<Item = &[usize]> {
+        self.known.keys().map(Vec::as_slice)
     }
 
     /// The errors on the runs of a hypothesis that were learnt last, before they were: what they leave counts

@@ -15,7 +15,7 @@ use crate::unseen::UnseenError;
 
 /// The error of an emulator at the posterior that is small enough: the norm over all rows, in u. A fifth of
 /// the noise in each of 500 rows would be 4.5, and ten units of log evidence.
-const GOAL: f64 = 0.5;
+pub const GOAL: f64 = 0.5;
 
 /// The last runs, at what is reported.
 const VERDICT: usize = 4;
@@ -128,6 +128,19 @@ impl Plan {
         })
     }
 
+    /// At most so many runs that fill the space as the start of a plan does, for a simulator that is run
+    /// only once for all.
+    ///
+    /// # Errors
+    /// Fewer runs than the start of a plan takes.
+    pub fn filling(space: &Space, runs: usize, seed: u64) -> Result<Vec<Batch>, TooFewRuns> {
+        let least = plain_start(space) + space.effects() * LEAST_START;
+        if runs < least {
+            return Err(TooFewRuns { least });
+        }
+        Ok(filled(space, runs, seed))
+    }
+
     /// How many runs were asked for so far.
     pub fn used(&self) -> usize {
         self.used
@@ -152,7 +165,7 @@ impl Plan {
         match std::mem::replace(&mut self.stage, Stage::Verdict) {
             Stage::Start => {
                 self.stage = Stage::Ask(self.few());
-                self.run(self.start())
+                self.run(filled(&self.space, self.budget / START, self.seed))
             }
             Stage::Ask(asked) => {
                 self.stage = Stage::Decide;
@@ -241,8 +254,7 @@ impl Plan {
 
     /// No effect and every one alone.
     fn few(&self) -> Vec<Vec<usize>> {
-        let singles = (0..self.space.effects()).map(|effect| vec![effect]);
-        std::iter::once(Vec::new()).chain(singles).collect()
+        few(&self.space)
     }
 
     fn pairs(&self) -> Vec<Vec<usize>> {
@@ -271,25 +283,6 @@ impl Plan {
     /// Whether the error of a hypothesis at its posterior is small enough.
     fn is_known(&self, effects: &[usize]) -> bool {
         self.errors.get(effects).is_some_and(|errors| errors.last <= GOAL)
-    }
-
-    /// What fills the space, of each hypothesis to learn from and to know the error.
-    fn start(&self) -> Vec<Batch> {
-        let plain = plain_start(&self.space);
-        let rest = (self.budget / START).saturating_sub(plain);
-        let share = rest.checked_div(self.space.effects()).unwrap_or(0).max(LEAST_START);
-        let mut batches = Vec::new();
-        for effects in self.few() {
-            let count = if effects.is_empty() { plain } else { share };
-            let key = StreamKey::new(self.seed, &format!("emulator/start/{effects:?}"));
-            let unknowns = self.space.unknowns(&effects).len();
-            let mut scores = space_filling_scores(count, unknowns, key);
-            let unseen = scores.split_off(2 * count / 3);
-            for scores in [scores, unseen] {
-                batches.push(Batch { effects: effects.clone(), scores, focus: None });
-            }
-        }
-        batches
     }
 
     /// The mode and draws of a posterior.
@@ -321,6 +314,30 @@ impl Plan {
         });
         Ending { runs: self.used, open: open.collect() }
     }
+}
+
+/// No effect and every one alone.
+fn few(space: &Space) -> Vec<Vec<usize>> {
+    let singles = (0..space.effects()).map(|effect| vec![effect]);
+    std::iter::once(Vec::new()).chain(singles).collect()
+}
+
+/// About so many runs that fill the space, of each hypothesis to learn from and to know the error.
+fn filled(space: &Space, runs: usize, seed: u64) -> Vec<Batch> {
+    let plain = plain_start(space);
+    let rest = runs.saturating_sub(plain);
+    let share = rest.checked_div(space.effects()).unwrap_or(0).max(LEAST_START);
+    let mut batches = Vec::new();
+    for effects in few(space) {
+        let count = if effects.is_empty() { plain } else { share };
+        let key = StreamKey::new(seed, &format!("emulator/start/{effects:?}"));
+        let mut scores = space_filling_scores(count, space.unknowns(&effects).len(), key);
+        let unseen = scores.split_off(2 * count / 3);
+        for scores in [scores, unseen] {
+            batches.push(Batch { effects: effects.clone(), scores, focus: None });
+        }
+    }
+    batches
 }
 
 /// Runs of the plain simulator at the start.

@@ -6,6 +6,8 @@ use std::fmt;
 
 use sha2::{Digest, Sha256};
 
+use crate::simulator::RunResult;
+
 /// The hash of a run's parameters: SHA-256 of the bits of their values in declared order, each number the
 /// lowest byte first.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
@@ -35,7 +37,7 @@ pub struct Run {
     /// The values of all parameters in their declared order, each in its unit.
     pub parameters: Vec<f64>,
     /// The outputs of all rows, finite and each in its unit, or why there are none.
-    pub result: Result<Vec<f64>, String>,
+    pub result: RunResult,
 }
 
 /// Why a run is not kept.

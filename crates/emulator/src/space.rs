@@ -140,6 +140,16 @@ impl Space {
         &self.names
     }
 
+    /// Number of inputs.
+    pub fn inputs(&self) -> usize {
+        self.inputs
+    }
+
+    /// The places of an effect's parameters among all parameters.
+    pub fn parameters(&self, effect: usize) -> Range<usize> {
+        self.effects[effect].places.clone()
+    }
+
     /// Number of effects.
     pub fn effects(&self) -> usize {
         self.effects.len()

@@ -10,13 +10,13 @@ use super::effects;
 use super::formula_notes::UNUSED_INPUT;
 use super::model_reader::{FoundModel, ModelOptions, ModelReader, read_with};
 use super::results::ResultFiles;
-use super::{catalogue, prior, soundness};
+use super::{catalogue, prior, simulator, soundness};
 use gumption_engine::task::{Row, Warning};
 use gumption_gap::Case;
 use gumption_text::{DiagnosticKind, Diagnostics, SourceText};
 
 /// The keys that only cases have; a file with one of them is meant as a case.
-pub(super) const KEYS: [&str; 4] = ["observations", "effects", "catalogue", "prior"];
+pub(super) const KEYS: [&str; 5] = ["observations", "effects", "catalogue", "prior", "simulator"];
 
 /// A case that was read and found right.
 #[derive(Debug)]
@@ -103,7 +103,8 @@ impl ModelReader<'_> {
         if let Some(data) = found.as_ref().and_then(|found| found.data.as_ref()) {
             soundness::check(self.root.log, &read, &placed, data);
         }
-        shipped.filter(|()| complete)?;
+        let simulator = simulator::of_case(&self.root, read.sim, read.task, &mut placed);
+        shipped.filter(|()| complete && self.root.log.is_clean())?;
         let unlisted = catalogue::unlisted(&read, &results, &placed);
         let FoundModel { file, sim, observed, simulated, history, reachable, replication, .. } =
             found?;
@@ -125,6 +126,7 @@ impl ModelReader<'_> {
             model: sim,
             observed,
             simulated,
+            simulator: simulator.map(Arc::new),
             history: history.into_iter().map(|(_, history)| history).collect(),
             reachable,
             candidates,

@@ -138,7 +138,7 @@ pub(super) fn unit(object: &Object<'_>, key: &str) -> Option<Unit> {
     parse_unit(object.log, text, span)
 }
 
-fn parse_unit(log: &Collector, text: &str, span: &Range<usize>) -> Option<Unit> {
+pub(super) fn parse_unit(log: &Collector, text: &str, span: &Range<usize>) -> Option<Unit> {
     let parsed = log.unit(text);
     log.value(span, parsed.map_err(|error| DiagnosticKind::Unit { unit: text.to_owned(), error }))
 }

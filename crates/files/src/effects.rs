@@ -8,6 +8,7 @@ use super::inputs;
 use super::keys;
 use super::results::ResultFiles;
 use super::scopes::report_formula;
+use super::simulator;
 use gumption_engine::distribution::Distribution;
 use gumption_engine::fact;
 use gumption_engine::fact::Argument;
@@ -15,7 +16,7 @@ use gumption_engine::model::formula;
 use gumption_engine::model::formula::{Formula, FormulaError};
 use gumption_engine::task::{Trials, Warning};
 use gumption_gap::Candidate;
-use gumption_gap::{Effect, OverridableModel};
+use gumption_gap::{Effect, ModelForm, OverridableModel};
 use gumption_text::json::{Json, Member};
 use gumption_text::object::Object;
 use gumption_text::{Collector, DiagnosticKind};
@@ -29,6 +30,8 @@ const MOST_EFFECTS: usize = 200;
 pub(super) struct Placed {
     pub(super) candidate: Candidate,
     pub(super) place: Range<usize>,
+    /// What makes it absent, of an effect that the simulator does by itself.
+    pub(super) neutral: Option<Vec<(usize, f64)>>,
 }
 
 /// Reads `effects` for a sim. Without one, because the model has mistakes, what does not depend on it
@@ -58,8 +61,8 @@ pub(super) fn read_one(
     results: &ResultFiles<'_>,
     warnings: &mut Vec<Warning>,
 ) -> Option<Placed> {
-    let candidate = EffectsReader { log, sim, results, warnings }.effect(member)?;
-    Some(Placed { candidate, place: member.key_span.clone() })
+    let (candidate, neutral) = EffectsReader { log, sim, results, warnings }.effect(member)?;
+    Some(Placed { candidate, place: member.key_span.clone(), neutral })
 }
 
 /// What the effects have in common: not too many, and no pair that needs each other.
@@ -107,7 +110,8 @@ struct EffectsReader<'a> {
 }
 
 impl EffectsReader<'_> {
-    fn effect(&mut self, member: &Member) -> Option<Candidate> {
+    /// An effect, and what makes it absent if the simulator does it.
+    fn effect(&mut self, member: &Member) -> Option<(Candidate, Option<Vec<(usize, f64)>>)> {
         let object = Object::new(self.log, "an effect", &member.value, &member.key_span)?;
         keys::check(&object, keys::EFFECT);
         let diagnostic = |reason: &str| DiagnosticKind::Effect {
@@ -123,15 +127,33 @@ impl EffectsReader<'_> {
             self.log.report(&member.key_span, diagnostic(reason));
         }
         let parameters = object.required("parameters");
-        let overrides = object.required("overrides");
+        let by_itself = object.truth("simulator").unwrap_or(false);
+        let overrides = if by_itself {
+            self.of_simulator(&object, diagnostic);
+            None
+        } else {
+            if let Some(neutral) = object.get("neutral") {
+                let reason = "has `neutral`, and its formulas say when it is absent; take that out, or \
+                              say `\"simulator\": true` where the simulator does the effect by itself";
+                self.log.report(&neutral.key_span, diagnostic(reason));
+            }
+            Some(object.required("overrides"))
+        };
         // parameters are always drawn; an effect of known size has none
         let inputs = parameters.and_then(|parameters| {
             inputs::read(self.log, parameters, &NoConditions, &[], self.results, Trials::Adaptive)
         });
-        let overrides = Object::new(self.log, "`overrides`", &overrides?.value, &member.key_span)?;
-        if overrides.members().is_empty() {
-            overrides.report(diagnostic("overrides nothing"));
-        }
+        let overrides = match overrides {
+            Some(overrides) => {
+                let overrides = &overrides?.value;
+                let overrides = Object::new(self.log, "`overrides`", overrides, &member.key_span)?;
+                if overrides.members().is_empty() {
+                    overrides.report(diagnostic("overrides nothing"));
+                }
+                Some(overrides)
+            }
+            None => None,
+        };
         let inputs = inputs?;
         self.parameters(parameters, &inputs, diagnostic);
         let mut effect = Effect {
@@ -139,25 +161,47 @@ impl EffectsReader<'_> {
             parameters: inputs.quantities.iter().map(|input| input.quantity.clone()).collect(),
             overrides: Vec::new(),
         };
-        for member in overrides.members() {
+        for member in overrides.iter().flat_map(Object::members) {
             if self.can_override(&effect, member)
                 && let Some(formula) = self.formula(member, &effect)
             {
                 effect.overrides.push((member.key.clone(), formula));
             }
         }
-        if let Err(circular) = self.sim?.program(&[&effect]) {
+        let neutral = match &overrides {
+            Some(_) => None,
+            None => Some(simulator::neutral(&object, &effect.parameters, diagnostic)?),
+        };
+        if let (Err(circular), Some(overrides)) = (self.sim?.program(&[&effect]), &overrides) {
             let reason = format!("overrides quantities that need each other: {}", circular);
             let diagnostic = DiagnosticKind::Effect { name: effect.name.clone(), reason };
             self.log.report(overrides.place(), diagnostic);
         }
         let priors: Vec<Distribution> = priors(&inputs).cloned().collect();
-        (priors.len() == effect.parameters.len()).then(|| Candidate {
-            effect,
-            priors,
-            about: object.text("about").unwrap_or("").to_owned(),
-            source: object.text("source").unwrap_or("").to_owned(),
+        (priors.len() == effect.parameters.len()).then(|| {
+            let candidate = Candidate {
+                effect,
+                priors,
+                about: object.text("about").unwrap_or("").to_owned(),
+                source: object.text("source").unwrap_or("").to_owned(),
+                simulator: None,
+            };
+            (candidate, neutral)
         })
+    }
+
+    /// What an effect that the simulator does by itself cannot have.
+    fn of_simulator(&self, effect: &Object<'_>, diagnostic: impl Fn(&str) -> DiagnosticKind) {
+        if let Some(overrides) = effect.get("overrides") {
+            let reason = "is said to be one that the simulator does by itself, and overrides quantities; \
+                          take out `simulator` or `overrides`";
+            self.log.report(&overrides.key_span, diagnostic(reason));
+        }
+        if self.sim.is_some_and(|sim| !matches!(sim.maker, ModelForm::Simulated)) {
+            let reason = "is said to be one that the simulator does by itself, and the file has no \
+                          `simulator`; describe that, or give the effect `overrides`";
+            effect.report(diagnostic(reason));
+        }
     }
 
     /// What parameters must be beyond inputs: one value each.

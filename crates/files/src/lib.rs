@@ -60,6 +60,7 @@ mod shapes;
 mod shared_run;
 mod sharing;
 mod simulated;
+mod simulator;
 mod size;
 mod soundness;
 mod target;

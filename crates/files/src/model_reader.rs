@@ -43,10 +43,10 @@ use super::output_limits;
 use super::outputs::{self, Outputs};
 use super::overrides::{self, Override};
 use super::results::ResultFiles;
-use super::scopes::{ConditionSet, number_form, report_formula, typed_scope};
+use super::scopes::{ConditionSet, condition_scope, number_form, report_formula, typed_scope};
 use super::simulated::{names_simulation, simulated};
 use super::size::Size;
-use super::{correlations, history, inputs, keys, regions, settings};
+use super::{correlations, history, inputs, keys, regions, settings, simulator};
 use gumption_engine::distribution::{Correlation, Fits};
 use gumption_engine::model::formula::{Formula, constants};
 use gumption_engine::model::typed::{Catalogue, CatalogueEntry};
@@ -118,6 +118,7 @@ pub(super) type Equation<'a> = (String, Option<&'a Member>, Option<Formula>);
 pub(super) enum ModelBody<'a> {
     Typed(&'a CatalogueEntry, &'a Range<usize>),
     Equations(Vec<Equation<'a>>),
+    Simulator(simulator::Given),
 }
 
 impl ModelBody<'_> {
@@ -125,6 +126,7 @@ impl ModelBody<'_> {
     fn statement(&self) -> ModelStatement {
         match self {
             Self::Typed(entry, _) => ModelStatement::of_declaration(&entry.typed.declaration),
+            Self::Simulator(_) => ModelStatement::of_formulas(std::iter::empty()),
             Self::Equations(equations) => {
                 let written = equations.iter().filter(|(_, member, _)| member.is_some());
                 ModelStatement::of_formulas(written.filter_map(|(name, _, formula)| {
@@ -171,6 +173,11 @@ pub(super) fn read_with<T>(
 impl<'a> ModelReader<'a> {
     /// All that the file holds, unless it has mistakes.
     pub(super) fn found(&self) -> Option<FoundModel> {
+        if let Some(member) = self.root.get("simulator") {
+            let reason = "is run by `gumption gap` alone".to_owned();
+            self.root.log.report(&member.key_span, DiagnosticKind::Simulator { reason });
+            return None;
+        }
         self.found_with(false)
     }
 
@@ -195,7 +202,11 @@ impl<'a> ModelReader<'a> {
 
         let Data { mut observations, conditions, simulated } = self.data(history)?;
         let fits = self.fits(check_units)?;
-        let body = self.body(&simulated, &fits.curves);
+        let given = match root.get("simulator") {
+            Some(member) => simulator::read(root, member).map(Some),
+            None => Some(None),
+        };
+        let body = given.and_then(|given| self.body(&simulated, given, &fits.curves));
         let results = ResultFiles::new(self.folder, self.options.files).with_curves(&fits.curves);
         let trials = self.options.files.trials(settings.trials);
         let mut quantities =
@@ -217,12 +228,21 @@ impl<'a> ModelReader<'a> {
         warnings.extend(results.warnings.take());
         let body = body?;
         let statement = body.statement();
-        let sim = self.sim(body, &mut quantities, &mut warnings, &mut files)?;
+        let given = match &body {
+            ModelBody::Simulator(given) => Some(given.clone()),
+            ModelBody::Typed(..) | ModelBody::Equations(_) => None,
+        };
+        let mut sim = self.sim(body, &mut quantities, &mut warnings, &mut files)?;
         let regions = regions::read(root, &sim.outputs);
         if !root.log.is_clean() {
             return None;
         }
         let observed = self.observed(observations.as_ref(), &sim)?;
+        let conditions = &mut quantities.conditions;
+        let simulated = match &given {
+            Some(given) => simulator::add_conditions(root, given, &observed, &mut sim, conditions)?,
+            None => simulated.len(),
+        };
         let are_swept = !quantities.conditions.quantities.is_empty();
         occasions::tell(&mut quantities.inputs, &files, self.options.overrides, are_swept);
 
@@ -246,7 +266,6 @@ impl<'a> ModelReader<'a> {
         warnings.extend(counted_twice::notes(&task));
         let source = root.log.source.clone();
         let file = ModelFile { task, warnings, source, files, output_places, evidence };
-        let simulated = simulated.len();
         let (data, replication) = match observations {
             Some(observed) => (Some(observed.table), observed.replication.map(|(name, _)| name)),
             None => (None, None),
@@ -415,6 +434,14 @@ impl<'a> ModelReader<'a> {
                 output_limits::of_temperatures(log, &scope, of);
                 (scope, ModelForm::Typed(entry.typed))
             }
+            ModelBody::Simulator(given) => {
+                simulator::check_outputs(&self.root, &given, &of.outputs, of.check_units);
+                let scope = condition_scope(&of.conditions, of.check_units);
+                let scope = simulator::scope(scope, &of.inputs, &given);
+                check_formula_outputs(log, &scope, of);
+                refuse_one_limit(log, &of.outputs);
+                (scope, ModelForm::Simulated)
+            }
             ModelBody::Equations(equations) => {
                 let form = number_form(of.check_units);
                 let tables = interpolated::read(log, self.folder, &equations, form, files);
@@ -492,8 +519,12 @@ impl<'a> ModelReader<'a> {
     fn body(
         &self,
         simulated: &[(String, String)],
+        given: Option<simulator::Given>,
         curves: &[Arc<CurveFunction>],
     ) -> Option<ModelBody<'a>> {
+        if let Some(given) = given {
+            return Some(ModelBody::Simulator(given));
+        }
         match (self.root.get("model"), self.root.get("equations")) {
             (Some(member), None) => {
                 let name = self.root.text("model")?;

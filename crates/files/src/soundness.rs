@@ -49,7 +49,7 @@ fn enough(log: &Collector, read: &EffectContext<'_>, placed: &[Placed], data: &T
 /// An effect that no observed output depends on can be neither found nor excluded.
 fn changes_an_observed_output(log: &Collector, read: &EffectContext<'_>, placed: &Placed) {
     let effect = &placed.candidate.effect;
-    if read.is_changed_by(effect) {
+    if placed.neutral.is_some() || read.is_changed_by(effect) {
         return;
     }
     let quoted = |names: Vec<&str>| {

@@ -117,7 +117,7 @@ fn shifted(setup: &Setup<'_>, variable: usize, distance: f64) -> Option<(Vec<f64
         let deviation = setup.spread.deviations[variable][point];
         let mut at = setup.row(row).estimates();
         at[variable] += distance * deviation;
-        let (values, gradients) = setup.case.task.model.program.gradients(&at);
+        let (values, gradients) = setup.case.gradients(&at);
         for (output, &place) in data.outputs.iter().enumerate() {
             residuals.push(data.residual(output, row, values[place]));
             slopes.push(gradients[place][variable] * deviation);

@@ -22,6 +22,7 @@ mod row_drift;
 mod selection;
 mod shares;
 mod shrink;
+pub mod simulated;
 mod strength;
 mod turns;
 mod unit_slip;
@@ -44,7 +45,7 @@ pub use gumption_inference::scan::GapRegion;
 pub use gumption_inference::shape::ComposedForm;
 pub use gumption_inference::{
     Candidate, Case, Effect, History, HistoryKind, MOST_GROUPS, ModelForm, ObservedOutput,
-    OverridableModel, OverrideError, OwnSizes, Prior, Replication,
+    OverridableModel, OverrideError, OwnSizes, Prior, Replication, Simulator, simulator_conditions,
 };
 pub use selection::{ModelSelection, noise, nominal, select_model};
 

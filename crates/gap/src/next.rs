@@ -553,7 +553,7 @@ fn other_noise_at(setup: &Setup<'_>, place: &Place, outputs: &[usize], relative:
         return NoiseAt { own: Vec::new(), shared: Vec::new() };
     }
     let variables = place.row.estimates();
-    let (values, _) = setup.case.task.model.program.gradients(&variables);
+    let (values, _) = setup.case.gradients(&variables);
     let NoiseAt { own, shared } = of_inputs(setup, place, outputs);
     let own =
         outputs.iter().zip(own).map(|(&output, own)| own + (relative * values[output]).powi(2));

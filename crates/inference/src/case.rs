@@ -1,6 +1,8 @@
 //! A case of the gap diagnosis: a model, what was measured, and the effects that may be missing.
 
-use crate::{Effect, History, OverridableModel, OverrideError, Replication};
+use std::sync::Arc;
+
+use crate::{Effect, History, OverridableModel, OverrideError, Replication, Simulator};
 use gumption_engine::distribution::Distribution;
 use gumption_engine::model::Program;
 use gumption_engine::task::{Coverage, Task};
@@ -17,8 +19,11 @@ pub struct Case {
     /// output was not observed.
     pub observed: Vec<Option<ObservedOutput>>,
     /// How many of the last conditions are columns of somebody else's simulation rather than
-    /// conditions of the measurement.
+    /// conditions of the measurement. Of a case with a simulator they are its outputs and the number of
+    /// the row.
     pub simulated: usize,
+    /// The simulator that the model is; `None` of formulas and typed models.
+    pub simulator: Option<Arc<Simulator>>,
     /// The conditions before those that follow from the order of the rows, in their places.
     pub history: Vec<History>,
     /// Between which values each condition can be set, in its unit; `None` where that is not known,
@@ -62,6 +67,8 @@ pub struct Candidate {
     pub about: String,
     /// Where it comes from.
     pub source: String,
+    /// Which effect of the case's simulator it is, if the simulator can do it by itself.
+    pub simulator: Option<usize>,
 }
 
 /// Prior probabilities; they sum to one.
@@ -111,6 +118,10 @@ impl Case {
         let mut case = self.clone();
         case.prior = Prior { three: 0.0, ..case.prior };
         for place in 0..case.candidates.len() {
+            // a simulator was run within the priors as they are stated
+            if case.candidates[place].simulator.is_some() {
+                continue;
+            }
             let listed = self.listed_parameters(place);
             let candidate = &mut case.candidates[place];
             let priors = candidate.priors.iter_mut().zip(&candidate.effect.parameters);

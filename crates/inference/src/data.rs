@@ -74,7 +74,7 @@ impl Data {
             key.extend(noise.serial.map(|_| number as u64));
             let place = *known.entry(key).or_insert_with(|| {
                 let inputs = row.distributions.len();
-                let (values, gradients) = case.task.model.program.gradients(&row.estimates());
+                let (values, gradients) = case.gradients(&row.estimates());
                 let gradient = |&output: &usize| gradients[output][..inputs].to_vec();
                 points.push(Point {
                     rows: Vec::new(),

@@ -34,6 +34,8 @@ mod replication;
 pub mod scan;
 pub mod setup;
 pub mod shape;
+mod simulator;
+pub mod simulator_states;
 pub mod term_evidence;
 mod whitened;
 
@@ -41,6 +43,7 @@ pub use case::{Candidate, Case, ObservedOutput, Prior};
 pub use history::{History, HistoryKind};
 pub use model::{Effect, ModelForm, OverridableModel, OverrideError};
 pub use replication::{MOST_GROUPS, OwnSizes, Replication};
+pub use simulator::{Simulator, simulator_conditions};
 
 #[cfg(test)]
 mod tests;

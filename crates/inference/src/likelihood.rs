@@ -23,6 +23,7 @@ use super::data::Data;
 use super::latent::{Role, ln_priors};
 use super::logarithm::HALF_LN_TWO_PI;
 use crate::Case;
+use crate::simulator::SimulatedOutputs;
 use gumption_engine::linalg::dot;
 use gumption_engine::linalg::packed::{self, triangle};
 use gumption_engine::model::{Program, Schedule, ScheduledOutput};
@@ -45,6 +46,8 @@ pub struct Likelihood<'c> {
     evaluator: Arc<Evaluator>,
     /// For each value the logarithm of the model's size, which proportional noise follows.
     ln_sizes: Vec<f64>,
+    /// What a simulator gives, in a case with one.
+    pub(crate) simulated: Option<SimulatedOutputs<'c>>,
 }
 
 /// A program over columns at every point of the data.
@@ -183,7 +186,13 @@ impl<'c> Likelihood<'c> {
         mixing: Option<Vec<Vec<f64>>>,
         ln_sizes: Vec<f64>,
     ) -> Self {
-        Self { data, covariance, roles, mixing, evaluator, ln_sizes }
+        Self { data, covariance, roles, mixing, evaluator, ln_sizes, simulated: None }
+    }
+
+    /// The same with the outputs of a simulator.
+    pub(crate) fn with_simulated(mut self, simulated: Option<SimulatedOutputs<'c>>) -> Self {
+        self.simulated = simulated;
+        self
     }
 
     /// A program at the points of the data; its variables without a role are at their estimates.
@@ -201,7 +210,7 @@ impl<'c> Likelihood<'c> {
         let at: Vec<Row> = rows.iter().map(|&row| case.task.rows[row].clone()).collect();
         Evaluator::new(
             program,
-            at.iter().map(|row| row.conditions.clone()).collect(),
+            known_conditions(case, &at),
             case.task.variables.len(),
             &fixed_at(&at, roles),
             &data.outputs,
@@ -272,6 +281,13 @@ impl<'c> Likelihood<'c> {
     }
 }
 
+/// The conditions of rows whose values no hypothesis changes: all but what a simulator gives.
+pub(crate) fn known_conditions(case: &Case, rows: &[Row]) -> Vec<Vec<f64>> {
+    let simulated = case.simulator.as_ref().and_then(|simulator| simulator.emulator());
+    let known = simulated.map_or(case.model.conditions.len(), |_| case.described());
+    rows.iter().map(|row| row.conditions[..known].to_vec()).collect()
+}
+
 /// For each input its values in the rows where it is no unknown quantity.
 pub(crate) fn fixed_at(rows: &[Row], roles: &[Role]) -> Vec<Option<Vec<f64>>> {
     let inputs = rows.first().map_or(0, |row| row.distributions.len());
@@ -302,7 +318,7 @@ impl Kernel for Walk<'_, '_> {
     #[inline(always)]
     fn run(self) {
         let Self { path, likelihood, scores, lanes, visitor } = self;
-        let Likelihood { data, covariance, roles, evaluator, ln_sizes, .. } = likelihood;
+        let Likelihood { data, covariance, roles, evaluator, ln_sizes, simulated, .. } = likelihood;
         let count = data.outputs.len();
         let mut registers = evaluator.workspace();
         let mut varying: Vec<(usize, usize, &[super::latent::Map])> = Vec::new();
@@ -332,6 +348,7 @@ impl Kernel for Walk<'_, '_> {
                 }
             }
         }
+        let of_simulator = simulated.as_ref().map(|own| (own, own.lanes(roles, &scores, lanes)));
         let mut sims = vec![Column::ZERO; count];
         let mut raw = vec![Column::ZERO; count];
         let mut residuals = vec![Column::ZERO; count];
@@ -343,6 +360,11 @@ impl Kernel for Walk<'_, '_> {
                     values.0[lane] = maps[number].value(scores[*n].0[lane]);
                 }
                 evaluator.set(&mut registers, *place, &values);
+            }
+            if let Some((own, outputs)) = &of_simulator {
+                for (variable, values) in own.of_row(data.ids[point.rows[0]], outputs) {
+                    evaluator.set(&mut registers, variable, &values);
+                }
             }
             evaluator.at(path, number, &mut registers, &mut sims);
             for &row in &point.rows {

@@ -19,6 +19,8 @@ pub enum ModelForm {
     Typed(Typed),
     /// Formulas in their order, each with the name of its quantity.
     Equations(Vec<(String, Formula)>),
+    /// A simulator: each output is the condition of the same name, whose values are those of its runs.
+    Simulated,
 }
 
 /// A model that can be recorded anew with some of its quantities overridden.
@@ -346,6 +348,7 @@ impl<'s, 'r> Making<'s, 'r> {
                 ModelForm::Typed(typed) => {
                     QuantityStep::Typed(typed.output(name).ok_or_else(|| undefined(name))?.0)
                 }
+                ModelForm::Simulated => return Err(undefined(name)),
             });
         }
         if !self.outputs.contains(name) {
@@ -381,7 +384,7 @@ impl<'s, 'r> Making<'s, 'r> {
     fn typed_inputs(&self) -> impl Iterator<Item = &'static str> {
         let declared = match &self.sim.maker {
             ModelForm::Typed(typed) => typed.declaration.inputs,
-            ModelForm::Equations(_) => &[],
+            ModelForm::Equations(_) | ModelForm::Simulated => &[],
         };
         declared.iter().map(|input| input.name).filter(|name| self.given.contains_key(*name))
     }

@@ -2,8 +2,9 @@
 
 use super::data;
 use super::latent::{Map, Role};
-use super::likelihood::{Evaluator, Likelihood, fixed_at};
+use super::likelihood::{Evaluator, Likelihood, fixed_at, known_conditions};
 use super::setup::Setup;
+use super::simulator::{SimulatedOutputs, row_of};
 use gumption_engine::number::{COLUMN, CodePath, Column, Kernel};
 use gumption_engine::task::Row;
 
@@ -23,6 +24,8 @@ pub struct Predictor<'s> {
     roles: Vec<Role>,
     evaluator: Evaluator,
     outputs: usize,
+    /// The places of the rows among those of the case, where it has a simulator.
+    places: Vec<usize>,
 }
 
 impl<'s> Predictor<'s> {
@@ -51,17 +54,21 @@ impl<'s> Predictor<'s> {
             .collect();
         let evaluator = Evaluator::new(
             &program,
-            rows.iter().map(|row| row.conditions.clone()).collect(),
+            known_conditions(setup.case, rows),
             setup.case.task.variables.len(),
             &fixed_at(rows, &roles),
             outputs,
         );
-        Self { likelihood, roles, evaluator, outputs: outputs.len() }
+        let places = match likelihood.simulated {
+            Some(_) => rows.iter().map(|row| row_of(setup.case, &row.conditions)).collect(),
+            None => Vec::new(),
+        };
+        Self { likelihood, roles, evaluator, outputs: outputs.len(), places }
     }
 
     /// Values for draws of the unknown quantities.
     pub fn values(&self, draws: &[Vec<f64>]) -> Values {
-        let Self { likelihood, roles, evaluator, outputs } = self;
+        let Self { likelihood, roles, evaluator, outputs, places } = self;
         let outputs = *outputs;
         let mut values = vec![vec![Vec::with_capacity(draws.len()); outputs]; evaluator.points()];
         for draws in draws.chunks(COLUMN) {
@@ -73,7 +80,10 @@ impl<'s> Predictor<'s> {
             }
             let scores = likelihood.mixed(&scores);
             let path = CodePath::best();
-            let walk = Walk { path, evaluator, roles, scores, lanes: draws.len(), outputs };
+            let simulated = likelihood.simulated.as_ref();
+            let simulated = simulated.map(|own| (own, own.lanes(roles, &scores, draws.len())));
+            let lanes = draws.len();
+            let walk = Walk { path, evaluator, roles, scores, lanes, outputs, places, simulated };
             for (of_row, columns) in values.iter_mut().zip(path.run(walk)) {
                 for (of_output, column) in of_row.iter_mut().zip(columns) {
                     of_output.extend(column);
@@ -91,6 +101,8 @@ struct Walk<'w> {
     scores: Vec<Column>,
     lanes: usize,
     outputs: usize,
+    places: &'w [usize],
+    simulated: Option<(&'w SimulatedOutputs<'w>, Vec<Vec<f64>>)>,
 }
 
 impl Kernel for Walk<'_> {
@@ -101,7 +113,7 @@ impl Kernel for Walk<'_> {
 
     #[inline(always)]
     fn run(self) -> Self::Output {
-        let Self { path, evaluator, roles, scores, lanes, outputs } = self;
+        let Self { path, evaluator, roles, scores, lanes, outputs, places, simulated } = self;
         let mut registers = evaluator.workspace();
         let mut values = Column::ZERO;
         let mut sims = vec![Column::ZERO; outputs];
@@ -118,6 +130,11 @@ impl Kernel for Walk<'_> {
                     evaluator.set(&mut registers, *place, &values);
                 }
             }
+            if let Some((own, of_lanes)) = &simulated {
+                for (variable, values) in own.of_row(places[row], of_lanes) {
+                    evaluator.set(&mut registers, variable, &values);
+                }
+            }
             evaluator.at(path, row, &mut registers, &mut sims);
             of_rows.push(sims.iter().map(|column| column.0[..lanes].to_vec()).collect());
         }
@@ -128,7 +145,7 @@ impl Kernel for Walk<'_> {
 /// What the model says of the observed outputs in a row at the inputs' estimates.
 pub fn nominal(setup: &Setup<'_>, row: &Row) -> Vec<f64> {
     let variables = row.estimates();
-    let values = setup.case.task.model.program.evaluate(&variables);
+    let values = setup.case.evaluate(&variables);
     setup.data.outputs.iter().map(|&output| values[output]).collect()
 }
 
@@ -146,7 +163,7 @@ pub fn variances_of(
     wanted: impl Fn(usize) -> bool,
 ) -> Vec<f64> {
     let variables = row.estimates();
-    let (_, gradients) = setup.case.task.model.program.gradients(&variables);
+    let (_, gradients) = setup.case.gradients(&variables);
     let of = |&output: &usize| {
         let part = |v: usize| {
             let distribution = row.distributions.get(v).filter(|_| wanted(v));

@@ -119,7 +119,7 @@ impl Case {
 fn of_each(candidate: &Candidate, group: &str, values: &[f64]) -> Option<(Candidate, bool)> {
     let (parameter, prior) = (candidate.effect.parameters.first()?, candidate.priors.first()?);
     let by_ratios = matches!(prior, Distribution::LogUniform(_));
-    if parameter.unit.to_si(0.0) != 0.0 {
+    if parameter.unit.to_si(0.0) != 0.0 || candidate.simulator.is_some() {
         return None;
     }
     let deviation = prior.standard_deviation();
@@ -190,5 +190,8 @@ fn of_each(candidate: &Candidate, group: &str, values: &[f64]) -> Option<(Candid
     };
     let about = format!("{} Its {own} differs between the values of {group}.", candidate.about);
     let about = about.trim_start().to_owned();
-    Some((Candidate { effect, priors, about, source: candidate.source.clone() }, by_ratios))
+    Some((
+        Candidate { effect, priors, about, source: candidate.source.clone(), simulator: None },
+        by_ratios,
+    ))
 }

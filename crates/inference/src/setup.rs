@@ -1,5 +1,6 @@
 //! A case made ready: data, covariance, and which quantities are unknown whatever the hypothesis.
 
+use std::collections::BTreeMap;
 use std::sync::Arc;
 
 use super::correlated;
@@ -8,6 +9,7 @@ use super::data::{Data, Spread};
 use super::evaluators::Evaluators;
 use super::latent::{Map, Role};
 use super::likelihood::Likelihood;
+use super::simulator::SimulatedOutputs;
 use crate::noise::noise_model::NoiseModel;
 use crate::{Case, Prior};
 use gumption_engine::distribution::Distribution;
@@ -45,6 +47,25 @@ pub struct Setup<'c> {
     /// Logarithm of the typical size of each observed output.
     pub ln_sizes: Vec<f64>,
     evaluators: Arc<Evaluators>,
+    /// In a case with a simulator the covariance for each list of its effects, with what its emulator does not
+    /// know of them.
+    of_simulator: Option<OfSimulator>,
+}
+
+/// Covariances by the effects of a simulator.
+#[derive(Clone, Debug)]
+struct OfSimulator {
+    /// Of effects that were never run together.
+    others: Covariance,
+    known: BTreeMap<Vec<usize>, Covariance>,
+}
+
+impl OfSimulator {
+    fn with(&self, columns: &[Vec<f64>]) -> Self {
+        let known = self.known.iter();
+        let known = known.map(|(effects, of)| (effects.clone(), of.with(columns)));
+        Self { others: self.others.with(columns), known: known.collect() }
+    }
 }
 
 impl<'c> Setup<'c> {
@@ -102,8 +123,17 @@ impl<'c> Setup<'c> {
             .collect();
         let others: Vec<usize> =
             varying.iter().copied().filter(|v| !unknown_inputs.contains(v)).collect();
-        let covariance = Covariance::new(case, &data, &spread, &others);
-        let linear = Covariance::new(case, &data, &spread, &varying);
+        let mut covariance = Covariance::new(case, &data, &spread, &others);
+        let mut linear = Covariance::new(case, &data, &spread, &varying);
+        let unseen = case.unseen(&data);
+        let of_simulator = (!unseen.is_empty()).then(|| {
+            let known = unseen.iter().map(|(effects, of)| (effects.clone(), covariance.with(of)));
+            OfSimulator { others: covariance.clone(), known: known.collect() }
+        });
+        if let Some(of_plain) = unseen.get(&[][..]) {
+            covariance = covariance.with(of_plain);
+            linear = linear.with(of_plain);
+        }
         let ln_sizes = ln_sizes(&data);
         let mut roles: Vec<Role> = unknown_inputs
             .iter()
@@ -126,6 +156,7 @@ impl<'c> Setup<'c> {
             mixing,
             ln_sizes,
             evaluators,
+            of_simulator,
         }
     }
 
@@ -143,6 +174,7 @@ impl<'c> Setup<'c> {
             mixing: self.mixing.clone(),
             ln_sizes: self.ln_sizes.clone(),
             evaluators: Arc::clone(&self.evaluators),
+            of_simulator: self.of_simulator.as_ref().map(|of| of.with(columns)),
         }
     }
 
@@ -201,14 +233,13 @@ impl<'c> Setup<'c> {
         let evaluator = self.evaluators.of(self.data.points.len(), effects, || {
             Likelihood::evaluator(self.case, &self.data, &self.case.program(effects), &roles)
         });
-        Likelihood::new(
-            &self.data,
-            &self.covariance,
-            evaluator,
-            roles,
-            mixing,
-            self.ln_sizes.clone(),
-        )
+        let covariance = match &self.of_simulator {
+            Some(of) => of.known.get(&self.case.simulator_effects(effects)).unwrap_or(&of.others),
+            None => &self.covariance,
+        };
+        let simulated = SimulatedOutputs::new(self.case, effects, &roles);
+        Likelihood::new(&self.data, covariance, evaluator, roles, mixing, self.ln_sizes.clone())
+            .with_simulated(simulated)
     }
 
     /// About so many values, evenly spread over the rows.
@@ -327,7 +358,7 @@ fn curved_effects(
     let estimate = at[variable];
     for tried in TRIED {
         at[variable] = estimate + tried * deviation;
-        let values = case.task.model.program.evaluate(&at);
+        let values = case.evaluate(&at);
         for (place, (largest, &output)) in largest.iter_mut().zip(&data.outputs).enumerate() {
             let change = (values[output] - point.nominal[place]).abs() / TRIED[1];
             // outside the sim's domain nothing is known

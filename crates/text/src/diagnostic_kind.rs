@@ -482,6 +482,11 @@ pub enum DiagnosticKind {
         /// Why, as a part of the sentence.
         reason: String,
     },
+    /// A simulator that does not fit the file.
+    Simulator {
+        /// What is wrong, as a part of the sentence.
+        reason: String,
+    },
     /// The cost of improving an input, in an invalid form.
     Cost {
         /// Why, as a sentence without a capital.
@@ -595,6 +600,7 @@ impl DiagnosticKind {
             Self::UnknownEffect { .. } => "unknown-effect",
             Self::Effect { .. } => "bad-effect",
             Self::Observation { .. } => "bad-observations",
+            Self::Simulator { .. } => "bad-simulator",
             Self::Cost { .. } => "bad-cost",
             Self::Prior { .. } => "bad-prior",
             Self::Certificate { .. } => "bad-certificate",
@@ -910,6 +916,7 @@ impl fmt::Display for DiagnosticKind {
             | Self::Cost { reason }
             | Self::Observation { reason }
             | Self::Prior { reason } => f.write_str(reason),
+            Self::Simulator { reason } => write!(f, "the simulator {reason}"),
             Self::UnknownEffect { name, nearest } => {
                 write!(f, "the catalogue has no effect `{name}`{}", meant(nearest.as_ref()))
             }

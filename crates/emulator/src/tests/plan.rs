@@ -152,6 +152,20 @@ fn a_budget_below_the_start_is_refused() {
     follow(&space(3), 38, |_| 0.0, |_, _| 0.1);
 }
 
+/// A plan fills the space with a third of its budget.
+#[test]
+fn runs_that_fill_the_space_are_those_of_a_start() {
+    let Step::Run(start) = Plan::new(space(2), 300, 1).unwrap().next(Vec::new()) else {
+        panic!("a plan begins with runs")
+    };
+    assert_eq!(Plan::filling(&space(2), 100, 1), Ok(start));
+    // 8 of the plain simulator, 6 of each effect
+    let least = Plan::filling(&space(2), 20, 1).unwrap();
+    assert_eq!(least.iter().map(|batch| batch.scores.len()).sum::<usize>(), 20);
+    let error = Plan::filling(&space(2), 19, 1).unwrap_err();
+    assert_eq!(error.to_string(), "the simulator has to be run 20 times at least");
+}
+
 /// The same seed gives the same runs, another one others.
 #[test]
 fn a_plan_follows_from_its_seed() {

@@ -183,7 +183,8 @@ pub(super) fn read(
             return None;
         }
         let fitting = sim.map(|sim| unlisted(&sim, results, own)).unwrap_or_default();
-        own.extend(fitting.into_iter().map(|candidate| Placed { candidate, place: place.clone() }));
+        let placed = |candidate| Placed { candidate, place: place.clone(), neutral: None };
+        own.extend(fitting.into_iter().map(placed));
         return Some(());
     }
     let shipped = Catalogue::shipped();
@@ -222,7 +223,9 @@ pub(super) fn read(
             }
             for name in names {
                 match one(here, name, sim, results, &mut notes) {
-                    Ok(candidate) => own.push(Placed { candidate, place: node.span.clone() }),
+                    Ok(candidate) => {
+                        own.push(Placed { candidate, place: node.span.clone(), neutral: None })
+                    }
                     Err(reason) => left_out(reason),
                 }
             }

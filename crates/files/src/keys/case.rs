@@ -11,6 +11,7 @@ pub(super) fn definitions(names: &BTreeSet<String>) -> Vec<(String, Value)> {
     let definitions = [
         ("observations", observations()),
         ("observed-output", observed()),
+        ("simulator", simulator()),
         ("effects", effects()),
         ("effect", effect()),
         ("catalogue", catalogue(names)),
@@ -99,6 +100,27 @@ fn observed() -> Value {
         .with("not", object([("required", texts(of_the_simulation))]))
 }
 
+/// Keys of `simulator`.
+pub(crate) const SIMULATOR: &[Key] = keys![
+    "outputs" => named(
+                "What the program gives, each output of the file with the unit that it is given in.",
+                reference("unit"),
+            )
+            .with("minProperties", 1),
+    "about" => text_of("Which program it is, in words: version, solver, tolerance."),
+];
+
+fn simulator() -> Value {
+    let about = "A program that gives the outputs of all rows at once, in place of `equations`. The \
+                 command line says which program, and no file. It gets all inputs, and the parameters of \
+                 all effects that say `\"simulator\": true`.";
+    let example = object([
+        ("outputs", object([("angle", Value::from("mrad"))])),
+        ("about", Value::from("pendulum.py, RK45, tolerance 1e-9")),
+    ]);
+    closed(about, SIMULATOR, &["outputs"]).with("examples", vec![example])
+}
+
 fn effects() -> Value {
     object([
         (
@@ -142,6 +164,16 @@ fn overrides() -> Value {
 pub(crate) const EFFECT: &[Key] = keys![
     "parameters" => parameters(),
     "overrides" => overrides(),
+    "simulator" => described(
+                "boolean",
+                "Whether the simulator does it by itself, at its parameters; it then overrides nothing.",
+            ),
+    "neutral" => named(
+                "Parameters that make an effect of the simulator absent, and their values. 0 of an effect \
+                 with one parameter; the others are then at the medians of their priors.",
+                reference("value"),
+            )
+            .with("minProperties", 1),
     "about" => text_of("What it is, in words."),
     "source" => text_of("Where it comes from."),
     // what `gumption gap` says of an effect that it composed, so that the entry of the answer can
@@ -176,7 +208,17 @@ fn effect() -> Value {
         ("parameters", object([("d", offset)])),
         ("overrides", object([("alpha", Value::from("alpha + d"))])),
     ]);
-    closed("An effect that the model leaves out.", EFFECT, &["parameters", "overrides"])
+    let by_itself = object([
+        ("properties", object([("simulator", object([("const", Value::from(true))]))])),
+        ("required", texts(["simulator"])),
+        ("not", object([("required", texts(["overrides"]))])),
+    ]);
+    let by_formulas = object([
+        ("required", texts(["overrides"])),
+        ("not", object([("required", texts(["neutral"]))])),
+    ]);
+    closed("An effect that the model leaves out.", EFFECT, &["parameters"])
+        .with("anyOf", vec![by_formulas, by_itself])
         .with("examples", vec![example])
 }
 

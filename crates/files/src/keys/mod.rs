@@ -18,7 +18,7 @@ use std::collections::BTreeSet;
 use serde_json::Value;
 
 use crate::result;
-pub(crate) use case::{EFFECT, OBSERVATIONS, OBSERVED, PRIOR};
+pub(crate) use case::{EFFECT, OBSERVATIONS, OBSERVED, PRIOR, SIMULATOR};
 pub(crate) use certificate::{
     CERTIFICATE, CERTIFICATE_FUNCTION, CERTIFICATE_KEYS, CERTIFICATE_ROW, DEVICE, PARTY,
 };

@@ -82,6 +82,7 @@ pub(crate) const MODEL: &[Key] = keys![
                 .with("minimum", 0)
                 .with("maximum", 1),
     "observations" => reference("observations"),
+    "simulator" => reference("simulator"),
     "effects" => reference("effects"),
     "catalogue" => reference("catalogue"),
     "prior" => reference("prior"),
@@ -91,7 +92,13 @@ fn root() -> Value {
     // an output may also come from a column of the observations
     let makers = ["equations", "model", "observations"];
     let either = makers.map(|key| object([("required", texts([key]))])).to_vec();
-    let both = [["coverage_probability", "coverage_factor"], ["equations", "model"]];
+    let both = [
+        ["coverage_probability", "coverage_factor"],
+        ["equations", "model"],
+        ["simulator", "equations"],
+        ["simulator", "model"],
+        ["simulator", "fits"],
+    ];
     let both = both.map(|keys| object([("required", texts(keys))])).to_vec();
     let without_inputs = vec![
         object([("required", texts(["inputs"]))]),
@@ -102,7 +109,13 @@ fn root() -> Value {
         .with("anyOf", either)
         .with("allOf", vec![object([("anyOf", Value::from(without_inputs))])])
         .with("not", object([("anyOf", Value::from(both))]))
-        .with("dependentRequired", object([("coverage_factor_fixed", texts(["coverage_factor"]))]))
+        .with(
+            "dependentRequired",
+            object([
+                ("coverage_factor_fixed", texts(["coverage_factor"])),
+                ("simulator", texts(["observations"])),
+            ]),
+        )
         .with("examples", vec![example()])
 }
 

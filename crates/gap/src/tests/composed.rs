@@ -79,6 +79,7 @@ fn case_of(bench: &Bench, simulated: &Simulated) -> Case {
             priors: vec![normal(0.0, *std)],
             about: String::new(),
             source: String::new(),
+            simulator: None,
         }
     });
     Case {
@@ -87,6 +88,7 @@ fn case_of(bench: &Bench, simulated: &Simulated) -> Case {
         model: sim,
         task,
         simulated: 0,
+        simulator: None,
         history: Vec::new(),
         shipped: Vec::new(),
         reachable: Vec::new(),
@@ -130,6 +132,7 @@ fn pasted(of: &ComposedEffect) -> Candidate {
         priors: of.parameters.iter().map(|p| prior(p.prior)).collect(),
         about: String::new(),
         source: String::new(),
+        simulator: None,
     }
 }
 

@@ -17,3 +17,4 @@ mod noise;
 mod one_row;
 mod regions;
 mod replication;
+mod simulated;

@@ -651,6 +651,7 @@ fn oscillation() -> Case {
         priors: parameters.into_iter().map(|(_, prior)| prior).collect(),
         about: String::new(),
         source: String::new(),
+        simulator: None,
     };
     case(
         normal(0.0, 20.0),

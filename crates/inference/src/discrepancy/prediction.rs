@@ -248,7 +248,7 @@ pub fn conditioned(
 /// What the model says in a row at the inputs' estimates, with its derivatives.
 pub fn nominal(setup: &Setup<'_>, row: &Row) -> (Vec<f64>, Vec<Vec<f64>>) {
     let variables = row.estimates();
-    let (values, gradients) = setup.case.task.model.program.gradients(&variables);
+    let (values, gradients) = setup.case.gradients(&variables);
     let outputs = &setup.data.outputs;
     (
         outputs.iter().map(|&output| values[output]).collect(),

@@ -36,7 +36,13 @@ pub(crate) fn candidate(
         parameters: vec![quantity(parameter)],
         overrides: formulas(of),
     };
-    Candidate { effect, priors: vec![prior], about: String::new(), source: String::new() }
+    Candidate {
+        effect,
+        priors: vec![prior],
+        about: String::new(),
+        source: String::new(),
+        simulator: None,
+    }
 }
 
 /// A model of the input `a` and the condition `x` = 0, 1, 2, ..., all of them dimensionless, with an
@@ -69,6 +75,7 @@ pub(crate) fn case(
         model: sim,
         observed,
         simulated: 0,
+        simulator: None,
         history: Vec::new(),
         reachable: Vec::new(),
         candidates,

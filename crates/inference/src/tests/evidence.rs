@@ -70,7 +70,13 @@ fn evidences_of_effects_of_known_size_are_exact() {
         let formula = format!("y + {size}");
         let overrides = formulas(&[("y", &formula)]);
         let effect = Effect { name: name.to_owned(), parameters: Vec::new(), overrides };
-        Candidate { effect, priors: Vec::new(), about: String::new(), source: String::new() }
+        Candidate {
+            effect,
+            priors: Vec::new(),
+            about: String::new(),
+            source: String::new(),
+            simulator: None,
+        }
     };
     case.candidates.extend([offset("small", "0.1"), offset("large", "0.3")]);
     let setup = Setup::new(&case);

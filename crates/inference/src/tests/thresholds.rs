@@ -36,8 +36,13 @@ fn constant(values: &[f64], formula: &str, thresholds: &[(&str, f64, f64)]) -> C
         overrides: formulas(&[("y", formula)]),
     };
     let priors = std::iter::once(normal(0.0, 1.0)).chain(thresholds.iter().map(rectangular));
-    let candidate =
-        Candidate { effect, priors: priors.collect(), about: String::new(), source: String::new() };
+    let candidate = Candidate {
+        effect,
+        priors: priors.collect(),
+        about: String::new(),
+        source: String::new(),
+        simulator: None,
+    };
     let measured = observed(values, Some(&[U; ROWS]));
     case(normal(1.0, 0.1), Sharing::All, &[("y", "a + 0*x")], vec![measured], vec![candidate])
 }

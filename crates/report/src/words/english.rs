@@ -446,6 +446,16 @@ const GAP: Sentences = &[
     ("undefined-prediction", "In {count} of {rows} rows of the prediction hypotheses of some probability have \
         no value (a root or logarithm of a negative number, a division by zero). They are left out there; \
         where they are more probable than the others nothing is predicted"),
+    ("emulator", "With {name} what is taken for the simulator's outputs is off by about {error} standard \
+        uncertainties of the data, the norm over all rows, and below {goal} it would not count. It takes about \
+        {runs} more runs"),
+    ("emulator.plain", "Without an effect what is taken for the simulator's outputs is off by about {error} \
+        standard uncertainties of the data, the norm over all rows, and below {goal} it would not count. It \
+        takes about {runs} more runs"),
+    ("emulator.not-run", "With {name} the simulator was never run at the parameters that the data tell, so \
+        that its probability rests on runs elsewhere. It takes about {runs} more runs"),
+    ("emulator.plain-not-run", "Without an effect the simulator was never run at the inputs that the data \
+        tell, so that its probability rests on runs elsewhere. It takes about {runs} more runs"),
     ("extrapolation", "{outside} of {rows} rows of the prediction lie outside of the conditions of the data. \
         No effect of the list says how the departure goes on there: smooth and composed departures are \
         averaged with less regard to their probabilities, and the standard uncertainty is enlarged with the \

@@ -493,6 +493,16 @@ const GAP: Sentences = &[
         Wahrscheinlichkeit keinen Wert (eine Wurzel oder ein Logarithmus einer negativen Zahl, eine Division \
         durch null). Sie bleiben dort weg; wo sie wahrscheinlicher sind als die übrigen, wird nichts \
         vorhergesagt"),
+    ("emulator", "Mit {name} weicht das, was für die Ausgaben des Simulators genommen wird, um etwa {error} \
+        Standardunsicherheiten der Daten ab, die Norm über alle Zeilen, und unter {goal} zählte es nicht. Es \
+        braucht etwa {runs} weitere Läufe"),
+    ("emulator.plain", "Ohne Effekt weicht das, was für die Ausgaben des Simulators genommen wird, um etwa \
+        {error} Standardunsicherheiten der Daten ab, die Norm über alle Zeilen, und unter {goal} zählte es \
+        nicht. Es braucht etwa {runs} weitere Läufe"),
+    ("emulator.not-run", "Mit {name} lief der Simulator nie bei den Parametern, die aus den Daten folgen, so \
+        dass die Wahrscheinlichkeit auf Läufen anderswo beruht. Es braucht etwa {runs} weitere Läufe"),
+    ("emulator.plain-not-run", "Ohne Effekt lief der Simulator nie bei den Eingangsgrößen, die aus den Daten \
+        folgen, so dass die Wahrscheinlichkeit auf Läufen anderswo beruht. Es braucht etwa {runs} weitere Läufe"),
     ("extrapolation", "{outside} von {rows} Zeilen der Vorhersage liegen außerhalb der Bedingungen der Daten. \
         Kein Effekt der Liste sagt, wie die Abweichung dort weitergeht: Glatte und zusammengesetzte \
         Abweichungen werden mit weniger Rücksicht auf ihre Wahrscheinlichkeiten gemittelt, und die \

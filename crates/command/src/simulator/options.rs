@@ -1,0 +1,179 @@
+//! Options of a diagnosis whose sim is a program.
+
+use std::path::{Path, PathBuf};
+use std::sync::Arc;
+use std::sync::atomic::AtomicBool;
+use std::time::Duration;
+
+use clap::Args;
+use gumption_emulator::{Plan, SimulatorCase};
+use gumption_gap::Case;
+
+use super::case::of_case;
+use super::diagnosis::{NoMoreRuns, SimulatedCase};
+use super::{KeptRuns, MadeRuns, Program, design, made};
+use crate::Failure;
+use crate::options::Threads;
+use crate::output::Destination;
+
+/// Runs of a simulator if no number is given.
+const RUNS: usize = 300;
+
+/// The simulator of a case.
+#[derive(Debug, Args)]
+pub(crate) struct SimulatorOptions {
+    /// Program that computes the outputs: it is started for each run, reads parameters and conditions
+    /// as JSON on standard input, and writes outputs as JSON on standard output. COMMAND is split into
+    /// words as in a shell, but started without one
+    #[arg(
+        long,
+        value_name = "COMMAND",
+        group = "program",
+        conflicts_with_all = ["simulator_lines", "predict"]
+    )]
+    simulator: Option<String>,
+    /// The same, started once for many runs: one line of JSON for each run and for each answer
+    #[arg(long, value_name = "COMMAND", group = "program", conflicts_with = "predict")]
+    simulator_lines: Option<String>,
+    /// Maximum number of runs of the simulator [default: 300]
+    #[arg(long, value_name = "N", value_parser = runs)]
+    runs: Option<usize>,
+    /// Write each run to FOLDER as soon as it ends, and use the runs that are there
+    #[arg(long, value_name = "FOLDER", requires = "program")]
+    keep: Option<PathBuf>,
+    /// Use the runs in FOLDER, and make none: kept runs, or parameters.csv with a file for each run,
+    /// 1.json or 1.csv
+    #[arg(long, value_name = "FOLDER", conflicts_with_all = ["program", "predict"])]
+    made: Option<PathBuf>,
+    /// Write the parameters of runs to be made elsewhere to FILE (CSV), and diagnose nothing
+    #[arg(long, value_name = "FILE", conflicts_with_all = ["program", "made", "predict"])]
+    design: Option<PathBuf>,
+    /// End a run that takes longer, with all processes that it started (on Windows the program alone);
+    /// it has then failed
+    #[arg(long, value_name = "SECONDS", value_parser = seconds, requires = "program")]
+    run_timeout: Option<Duration>,
+}
+
+impl SimulatorOptions {
+    /// The file to which only a design is written.
+    pub(crate) fn design(&self) -> Option<&Path> {
+        self.design.as_deref()
+    }
+
+    /// Writes the runs to be made.
+    pub(crate) fn write_design(
+        &self,
+        case: &Case,
+        seed: u64,
+        file: Destination,
+    ) -> Result<(), Failure> {
+        let Some((simulator, given)) = case.simulator.as_ref().zip(of_case(case)) else {
+            return Err(self.without_simulator());
+        };
+        let space = simulator.space();
+        let batches = Plan::filling(space, self.budget(), seed);
+        let batches = batches.map_err(|error| Failure::Argument(error.to_string()))?;
+        let sets = batches.iter().flat_map(|batch| {
+            batch.scores.iter().map(|scores| space.values(&batch.effects, scores))
+        });
+        let table = design(&given, &sets.collect::<Vec<_>>(), 1);
+        file.write_with(|out| out.write_all(table.as_bytes()).map(|()| true))
+    }
+
+    /// The simulator with the runs that were made before, and notes about them; `None` for a case
+    /// without a simulator.
+    ///
+    /// # Errors
+    /// A case with a simulator for which there is neither a program nor runs, a case without one for which
+    /// there are; a command without words; runs that cannot be read or kept.
+    pub(crate) fn simulated(
+        &self,
+        case: &Case,
+        threads: &Threads,
+        stop: &Arc<AtomicBool>,
+    ) -> Result<Option<(SimulatedCase, Vec<String>)>, Failure> {
+        let Some(given) = of_case(case) else {
+            let is_asked = self.command().is_some() || self.made.is_some();
+            return if is_asked { Err(self.without_simulator()) } else { Ok(None) };
+        };
+        if let Some(folder) = &self.made {
+            let MadeRuns { runs, notes } = made(folder, &given)?;
+            let runs = KeptRuns::of(given, runs);
+            // a plan fills the space with a third of its runs, as a design does with all
+            let (simulator, budget) = (Box::new(NoMoreRuns), 3 * self.budget());
+            let stop = Arc::clone(stop);
+            return Ok(Some((SimulatedCase { runs, simulator, budget, stop }, notes)));
+        }
+        let Some(command) = self.command() else {
+            let reason = "the outputs of this case come from a simulator: add --simulator COMMAND to run \
+                          it, --made FOLDER to use runs that were made, or --design FILE to write which \
+                          runs to make";
+            return Err(Failure::Argument(reason.to_owned()));
+        };
+        let program = self.program(command, threads, stop)?;
+        let (runs, notes) = self.runs(given, command)?;
+        let (simulator, budget) = (Box::new(program), self.budget());
+        Ok(Some((SimulatedCase { runs, simulator, budget, stop: Arc::clone(stop) }, notes)))
+    }
+
+    fn command(&self) -> Option<&str> {
+        self.simulator.as_deref().or(self.simulator_lines.as_deref())
+    }
+
+    fn budget(&self) -> usize {
+        self.runs.unwrap_or(RUNS)
+    }
+
+    fn program(
+        &self,
+        command: &str,
+        threads: &Threads,
+        stop: &Arc<AtomicBool>,
+    ) -> Result<Program, Failure> {
+        let program = Program::new(command).map_err(Failure::Argument)?;
+        let mut program = program.with_runs_at_once(threads.count()).with_stop(Arc::clone(stop));
+        if let Some(timeout) = self.run_timeout {
+            program = program.with_timeout(timeout);
+        }
+        Ok(if self.simulator_lines.is_some() { program.line_by_line() } else { program })
+    }
+
+    fn runs(
+        &self,
+        given: SimulatorCase,
+        command: &str,
+    ) -> Result<(KeptRuns, Vec<String>), Failure> {
+        match &self.keep {
+            Some(folder) => KeptRuns::open(folder, given, command),
+            None => Ok((KeptRuns::in_memory(given), Vec::new())),
+        }
+    }
+
+    /// The error that an option needs a simulator.
+    fn without_simulator(&self) -> Failure {
+        let option = match (&self.simulator, &self.simulator_lines, &self.made) {
+            (Some(_), ..) => "--simulator",
+            (_, Some(_), _) => "--simulator-lines",
+            (.., Some(_)) => "--made",
+            _ => "--design",
+        };
+        Failure::Argument(format!(
+            "`{option}` needs a case whose outputs come from a simulator; this case has no `simulator`"
+        ))
+    }
+}
+
+/// A number of runs.
+fn runs(text: &str) -> Result<usize, String> {
+    match text.parse::<usize>() {
+        Ok(count @ 1..=1_000_000) => Ok(count),
+        _ => Err("a whole number from 1 to 1000000 is needed".to_owned()),
+    }
+}
+
+/// A positive time in seconds.
+fn seconds(text: &str) -> Result<Duration, String> {
+    let time = text.parse().ok().and_then(|seconds| Duration::try_from_secs_f64(seconds).ok());
+    time.filter(|time| !time.is_zero())
+        .ok_or_else(|| "a positive number of seconds is needed, such as 60 or 0.5".to_owned())
+}

@@ -1,0 +1,229 @@
+//! A pendulum that loses energy, of which only a program is there: its gap from runs.
+
+use std::sync::Arc;
+
+use gumption_emulator::{Parameter, Runs, SimulatorEffect, Space};
+use gumption_engine::distribution::{Distribution, LogUniform, Normal, Rectangular, StreamKey};
+use gumption_engine::model::formula::{Scope, Typing};
+use gumption_engine::model::{InputQuantity, NumberForm, Output, Quantity};
+use gumption_engine::special::normal;
+use gumption_engine::task::{Row, Task, Variable};
+use gumption_units::Unit;
+
+use crate::simulated::{ParameterSet, SimulatorDiagnosis, diagnose};
+use crate::{
+    Candidate, Case, DiagnosisOptions, Effect, HypothesisKind, ModelForm, ObservedOutput,
+    OverridableModel, Prior, Simulator, simulator_conditions,
+};
+
+const ROWS: usize = 250;
+
+/// Standard uncertainty of an angle, in rad.
+const U: f64 = 3e-4;
+
+/// The budget of runs.
+const BUDGET: usize = 150;
+
+fn quantity(name: &str, unit: &str) -> Quantity {
+    Quantity { name: name.to_owned(), unit: Unit::parse(unit).unwrap(), about: String::new() }
+}
+
+/// Angles of a pendulum over 25 s in mrad: length in m, release angle in rad, quadratic air drag and dry
+/// friction of the pivot as a share of the weight's largest torque. Runge and Kutta's method of fourth order.
+fn swing(length: f64, release: f64, drag: f64, pivot: f64) -> Vec<f64> {
+    let gl = 9.80665 / length;
+    let slope = |[angle, rate]: [f64; 2]| {
+        let friction = drag * rate * rate.abs() + pivot * gl * (rate / 0.05).tanh();
+        [rate, -gl * angle.sin() - friction]
+    };
+    let moved = |at: [f64; 2], by: [f64; 2], h: f64| [at[0] + h * by[0], at[1] + h * by[1]];
+    let h = 25.0 / ROWS as f64 / 2.0;
+    let mut at = [release, 0.0];
+    let mut angles = Vec::with_capacity(ROWS);
+    for _ in 0..ROWS {
+        for _ in 0..2 {
+            let a = slope(at);
+            let b = slope(moved(at, a, h / 2.0));
+            let c = slope(moved(at, b, h / 2.0));
+            let d = slope(moved(at, c, h));
+            for i in 0..2 {
+                at[i] += h / 6.0 * (a[i] + 2.0 * b[i] + 2.0 * c[i] + d[i]);
+            }
+        }
+        angles.push(1e3 * at[0]);
+    }
+    angles
+}
+
+/// The program, which knows parameters by their names.
+fn run(set: &ParameterSet) -> Result<Vec<f64>, String> {
+    let value = |name: &str| {
+        let place = set.names.iter().position(|known| known == name);
+        place.map_or(0.0, |place| set.values[place])
+    };
+    Ok(swing(value("length"), value("release"), value("drag"), value("pivot")))
+}
+
+/// The case of a pendulum of 0.6195 m with some drag and friction, and these of both on the list.
+fn pendulum(drag: f64, pivot: f64, listed: &[&str]) -> Case {
+    let inputs = [("length", "m", (0.62, 0.002)), ("release", "rad", (0.4, 0.001))];
+    let known = inputs.map(|(_, _, (mean, std))| Normal::new(mean, std).unwrap().into());
+    let known: Vec<Distribution> = known.into();
+    let effects: [(&str, &str, Distribution); 2] = [
+        ("air-drag", "drag", Rectangular::between(0.0, 0.03).unwrap().into()),
+        ("pivot-friction", "pivot", LogUniform::new(1e-5, 1e-2).unwrap().into()),
+    ];
+    let effects = effects.into_iter().filter(|(name, ..)| listed.contains(name));
+    let mut candidates = Vec::new();
+    let mut of_simulator = Vec::new();
+    for (number, (name, parameter, prior)) in effects.enumerate() {
+        of_simulator.push(SimulatorEffect {
+            name: name.to_owned(),
+            parameters: vec![Parameter { name: parameter.to_owned(), prior: prior.clone() }],
+            neutral: vec![(0, 0.0)],
+        });
+        candidates.push(Candidate {
+            effect: Effect {
+                name: name.to_owned(),
+                parameters: vec![quantity(parameter, "1")],
+                overrides: Vec::new(),
+            },
+            priors: vec![prior],
+            about: String::new(),
+            source: String::new(),
+            simulator: Some(number),
+        });
+    }
+    let parameters = inputs
+        .iter()
+        .zip(&known)
+        .map(|((name, ..), prior)| Parameter { name: (*name).to_owned(), prior: prior.clone() });
+    let space = Space::new(parameters.collect(), of_simulator).unwrap();
+    let given = quantity("angle", "mrad");
+    let mut conditions = vec![quantity("t", "s")];
+    conditions.extend(simulator_conditions([given]));
+    let names = inputs.map(|(name, unit, _)| (name, unit));
+    let typed = names.into_iter().chain([("t", "s"), ("angle", "rad")]);
+    let model = OverridableModel {
+        inputs: names
+            .map(|(name, unit)| InputQuantity { quantity: quantity(name, unit), parts: 1 })
+            .into(),
+        conditions,
+        outputs: vec![Output::new(quantity("angle", "rad"))],
+        maker: ModelForm::Simulated,
+        scope: Scope::from_iter(
+            typed.map(|(name, unit)| (name, Typing::in_unit(&Unit::parse(unit).unwrap()))),
+        ),
+        numbers: NumberForm::Coherent,
+    };
+    let mut uniforms = [0.0; 256];
+    StreamKey::new(1, "noise").block(0).uniform(&mut uniforms);
+    let noise = uniforms.into_iter().map(normal::quantile);
+    let values: Vec<f64> = swing(0.6195, 0.3995, drag, pivot)
+        .into_iter()
+        .zip(noise)
+        .map(|(angle, noise)| 1e-3 * angle + U * noise)
+        .collect();
+    let known: Arc<[Arc<Distribution>]> = known.into_iter().map(Arc::new).collect();
+    let row = |number: usize| Row {
+        conditions: vec![0.1 * (number + 1) as f64, 1e3 * values[number], number as f64],
+        distributions: Arc::clone(&known),
+    };
+    let variables = names.map(|(name, unit)| Variable::new(name, Unit::parse(unit).unwrap()));
+    let task = Task::new(model.model().unwrap(), variables.into(), (0..ROWS).map(row).collect());
+    Case {
+        task,
+        model,
+        observed: vec![Some(ObservedOutput {
+            values,
+            last_digit: None,
+            standard_uncertainties: Some(vec![U; ROWS]),
+            simulation_uncertainties: None,
+            simulation_covariance: None,
+        })],
+        simulated: 2,
+        simulator: Some(Arc::new(Simulator::new(space))),
+        history: Vec::new(),
+        reachable: Vec::new(),
+        candidates,
+        shipped: Vec::new(),
+        replication: None,
+        prior: Prior::DEFAULT,
+    }
+}
+
+/// The diagnosis of a case, and how many runs were made for it.
+fn diagnosed(case: &Case, kept: Runs) -> (SimulatorDiagnosis, usize) {
+    let mut count = 0;
+    let mut make = |sets: &[ParameterSet]| {
+        count += sets.len();
+        sets.iter().map(run).collect()
+    };
+    let options = DiagnosisOptions::new(1);
+    let of = diagnose(case, &mut make, BUDGET, kept, options, &|_| {}).unwrap();
+    (of, count)
+}
+
+fn no_runs(case: &Case) -> Runs {
+    Runs::new(case.simulator.as_ref().unwrap().space().names().to_vec())
+}
+
+const BOTH: [&str; 2] = ["air-drag", "pivot-friction"];
+
+/// Dry friction changes the angles by more than 1000 u in norm; the interval of its size holds the truth with
+/// the probability 0.95, and within twice its width all but surely.
+#[test]
+fn the_loss_of_a_pendulum_is_named() {
+    let case = pendulum(0.0, 3e-4, &BOTH);
+    let (found, count) = diagnosed(&case, no_runs(&case));
+    let verdict = &found.diagnosis.most_probable;
+    assert_eq!(verdict.effects, ["pivot-friction"]);
+    assert!(verdict.kind == HypothesisKind::Explained && verdict.probability > 0.8, "{verdict:?}");
+    assert!(count <= BUDGET && found.ending.open.is_empty(), "{count} {:?}", found.ending);
+    assert_eq!(found.diagnosis.conditions.len(), 1);
+    // the last runs are those of the simulator itself at the verdict: they leave the noise
+    let last = found.last[0].result.as_ref().unwrap();
+    let measured = &case.observed[0].as_ref().unwrap().values;
+    let square: f64 =
+        last.iter().zip(measured).map(|(a, b)| ((1e-3 * a - b) / U).powi(2)).sum::<f64>();
+    // chi-square of 250 values, of which the runs know three parameters: 6 standard deviations are 134
+    assert!((square - 250.0).abs() < 134.0, "{square}");
+    // who kept the runs makes none again, and finds the same
+    let runs = found.runs.clone();
+    let (again, count) = diagnosed(&case, runs);
+    assert_eq!(count, 0);
+    assert_eq!(again.diagnosis.most_probable.probability, verdict.probability);
+}
+
+#[test]
+fn a_loss_that_is_not_on_the_list_is_unexplained() {
+    let case = pendulum(0.0, 3e-4, &["air-drag"]);
+    let (found, _) = diagnosed(&case, no_runs(&case));
+    let verdict = &found.diagnosis.most_probable;
+    assert_eq!(verdict.kind, HypothesisKind::Unexplained, "{verdict:?}");
+    assert!(verdict.probability > 0.8, "{verdict:?}");
+}
+
+#[test]
+fn a_pendulum_without_losses_has_no_gap() {
+    let case = pendulum(0.0, 0.0, &BOTH);
+    let (found, _) = diagnosed(&case, no_runs(&case));
+    let verdict = &found.diagnosis.most_probable;
+    assert_eq!(verdict.kind, HypothesisKind::None, "{verdict:?}");
+}
+
+/// A program that fails says at which parameters.
+#[test]
+fn runs_that_fail_are_told_with_their_parameters() {
+    let case = pendulum(0.0, 3e-4, &BOTH);
+    let mut make = |sets: &[ParameterSet]| vec![Err("no licence".to_owned()); sets.len()];
+    let options = DiagnosisOptions::new(1);
+    let found = diagnose(&case, &mut make, BUDGET, no_runs(&case), options, &|_| {});
+    let said = found.unwrap_err().to_string();
+    assert!(said.contains("no licence") && said.contains("length = 0.6"), "{said}");
+    let mut few = |_: &[ParameterSet]| Vec::new();
+    let found = diagnose(&case, &mut few, BUDGET, no_runs(&case), options, &|_| {});
+    assert!(found.unwrap_err().to_string().contains("0 came back"));
+    let found = diagnose(&case, &mut few, 5, no_runs(&case), options, &|_| {});
+    assert!(found.unwrap_err().to_string().contains("times at least"));
+}
