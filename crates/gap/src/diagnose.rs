@@ -95,6 +95,10 @@ fn diagnosed(
 ) -> Result<Diagnosis, OverrideError> {
     case.check()?;
     case.check_rows(at.unwrap_or_default())?;
+    if case.simulator.as_ref().is_some_and(|simulator| simulator.emulator().is_none()) {
+        let reason = "the outputs are those of a simulator, which was not run".to_owned();
+        return Err(OverrideError::Case { reason });
+    }
     let seed = options.seed;
     let others = OtherPriors::of(case);
     let effort = Effort { stop, ..Effort::FULL };
@@ -139,7 +143,8 @@ fn diagnosed(
     } else {
         Some([None, Some(best)])
     };
-    let next = if effort.is_stopped() {
+    // rows of a simulator belong together: one alone is no measurement of it
+    let next = if effort.is_stopped() || case.simulator.is_some() {
         NextMeasurements { entropy: next::entropy_of(&posterior), ..NextMeasurements::default() }
     } else {
         next::next(&setup, &discrepancy, &posterior, &compositions, rivals, &variances, seed)

@@ -7,17 +7,18 @@ use std::sync::Arc;
 
 use gumption_emulator::{
     Batch, Emulator, Ending, GOAL, Open, Plan, Run, Runs, SimulatorRun, Space, State, Step,
+    UnseenError,
 };
 use gumption_engine::decimal::significant;
 use gumption_engine::fact;
-use gumption_engine::fact::Argument;
+use gumption_engine::fact::{Argument, Fact};
 use gumption_inference::posterior::WeighedHypothesis;
 use gumption_inference::setup::Setup;
 use gumption_inference::simulator_states;
 
 use crate::diagnose::{DiagnosisOptions, diagnose as diagnosed};
 use crate::diagnosis::{Diagnosis, DiagnosisNote};
-use crate::{Case, OverrideError};
+use crate::{Candidate, Case, OverrideError};
 
 /// What a simulator is called with: all inputs and all parameters of its effects, always.
 #[derive(Clone, Debug, PartialEq)]
@@ -109,6 +110,13 @@ pub fn diagnose(
     let mut diagnosis = diagnosed(&emulated, None, options, &progress)?;
     without_simulated(&mut diagnosis, case.described());
     diagnosis.notes.extend(notes(case, &ending));
+    let own = &diagnosis.most_probable.effects;
+    let is_named = |of: &&Candidate| own.contains(&of.effect.name);
+    let named: Vec<usize> =
+        case.candidates.iter().filter(is_named).filter_map(|of| of.simulator).collect();
+    let unseen = simulation.emulator.unseen(&named).map(UnseenError::median);
+    let facts = std::iter::once(run_note(ending.runs, unseen)).chain(simulation.failed_note());
+    diagnosis.notes.extend(facts.map(|fact| DiagnosisNote { fact }));
     let Simulation { runs, last, .. } = simulation;
     Ok(SimulatorDiagnosis { diagnosis, runs, last, ending })
 }
@@ -206,6 +214,14 @@ impl Simulation<'_> {
         Some((values.join(", "), run.result.as_ref().err()?))
     }
 
+    /// What is to be said of runs that failed.
+    fn failed_note(&self) -> Option<Fact> {
+        let (at, why) = self.failed()?;
+        let failed = self.runs.made().iter().filter(|run| run.result.is_err()).count();
+        let runs = self.runs.made().len();
+        Some(fact!("simulator.failed", failed, runs, at, why))
+    }
+
     /// The states of lists of the simulator's effects, each alone and with one effect that formulas make
     /// beside it.
     fn inferred(&mut self, asked: Vec<Vec<usize>>) -> Result<Vec<State>, OverrideError> {
@@ -271,6 +287,17 @@ fn notes(case: &Case, ending: &Ending) -> Vec<DiagnosisNote> {
         DiagnosisNote { fact }
     };
     ending.open.iter().map(note).collect()
+}
+
+/// How often the simulator was run, and how well its outputs are known at what is reported.
+fn run_note(runs: usize, unseen: Option<f64>) -> Fact {
+    match unseen {
+        Some(error) => {
+            let error = Argument::Number(significant(error, 2));
+            fact!("simulator", runs, error)
+        }
+        None => fact!("simulator.runs", runs),
+    }
 }
 
 fn refused(reason: String) -> OverrideError {

@@ -2,7 +2,7 @@
 
 use gumption_engine::task::Row;
 
-use super::case::{Case, ObservedOutput, Prior};
+use super::case::{Candidate, Case, ObservedOutput, Prior};
 use super::model::OverrideError;
 
 impl Case {
@@ -52,6 +52,22 @@ impl Case {
                     "the effect `{}` has {found} prior distributions for {expected} parameters",
                     effect.name
                 )));
+            }
+        }
+        if let Some(simulator) = &self.simulator {
+            let space = simulator.space();
+            let is_of_it = |candidate: &Candidate| {
+                let own = candidate.simulator.filter(|effect| *effect < space.effects());
+                own.map_or(candidate.simulator.is_none(), |effect| {
+                    space.parameters(effect).len() == candidate.priors.len()
+                })
+            };
+            let inputs = self.task.variables.len();
+            if simulated < 2 || space.inputs() != inputs || !self.candidates.iter().all(is_of_it) {
+                return Err(refused(
+                    "the simulator's outputs, inputs or effects are not those of the case"
+                        .to_owned(),
+                ));
             }
         }
         let Prior { none, one, two, three, unexplained } = self.prior;

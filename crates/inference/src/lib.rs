@@ -34,6 +34,7 @@ mod replication;
 pub mod scan;
 pub mod setup;
 pub mod shape;
+mod simulated_outputs;
 mod simulator;
 pub mod simulator_states;
 pub mod term_evidence;

@@ -23,7 +23,7 @@ use super::data::Data;
 use super::latent::{Role, ln_priors};
 use super::logarithm::HALF_LN_TWO_PI;
 use crate::Case;
-use crate::simulator::SimulatedOutputs;
+use crate::simulated_outputs::SimulatedOutputs;
 use gumption_engine::linalg::dot;
 use gumption_engine::linalg::packed::{self, triangle};
 use gumption_engine::model::{Program, Schedule, ScheduledOutput};

@@ -4,7 +4,7 @@ use super::data;
 use super::latent::{Map, Role};
 use super::likelihood::{Evaluator, Likelihood, fixed_at, known_conditions};
 use super::setup::Setup;
-use super::simulator::{SimulatedOutputs, row_of};
+use super::simulated_outputs::{SimulatedOutputs, row_of};
 use gumption_engine::number::{COLUMN, CodePath, Column, Kernel};
 use gumption_engine::task::Row;
 

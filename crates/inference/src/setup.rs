@@ -9,7 +9,7 @@ use super::data::{Data, Spread};
 use super::evaluators::Evaluators;
 use super::latent::{Map, Role};
 use super::likelihood::Likelihood;
-use super::simulator::SimulatedOutputs;
+use super::simulated_outputs::SimulatedOutputs;
 use crate::noise::noise_model::NoiseModel;
 use crate::{Case, Prior};
 use gumption_engine::distribution::Distribution;
@@ -125,7 +125,7 @@ impl<'c> Setup<'c> {
             varying.iter().copied().filter(|v| !unknown_inputs.contains(v)).collect();
         let mut covariance = Covariance::new(case, &data, &spread, &others);
         let mut linear = Covariance::new(case, &data, &spread, &varying);
-        let unseen = case.unseen(&data);
+        let unseen = case.unseen(&data.ids, &data.outputs);
         let of_simulator = (!unseen.is_empty()).then(|| {
             let known = unseen.iter().map(|(effects, of)| (effects.clone(), covariance.with(of)));
             OfSimulator { others: covariance.clone(), known: known.collect() }

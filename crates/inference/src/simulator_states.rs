@@ -1,13 +1,15 @@
 //! What is found of the hypotheses of a case with a simulator while it is being run.
 
 use gumption_emulator::State;
-use gumption_engine::number::elementary;
+use gumption_engine::number::{COLUMN, elementary};
 use gumption_engine::parallel;
 
 use crate::integral::exploration::Exploration;
+use crate::likelihood::Likelihood;
 use crate::logarithm::ln_add;
 use crate::posterior::{Effort, WeighedHypothesis};
 use crate::setup::Setup;
+use crate::simulated_outputs::SimulatedOutputs;
 
 /// Draws of a posterior that a plan is told.
 const DRAWS: usize = 200;
@@ -52,10 +54,10 @@ pub fn state(setup: &Setup<'_>, hypotheses: &[&WeighedHypothesis]) -> Option<Sta
         let simulated = likelihood.simulated.as_ref()?;
         if of.effects == best.effects {
             let mode = of.evidence.modes.first()?.scores.clone();
-            state.mode = simulated.scores(&likelihood, &[mode]).pop()?;
+            state.mode = scores(&likelihood, simulated, &[mode]).pop()?;
         }
         if count > 0 && of.evidence.has_draws() {
-            let draws = simulated.scores(&likelihood, &of.evidence.resampled(count));
+            let draws = scores(&likelihood, simulated, &of.evidence.resampled(count));
             state.weights.extend(draws.iter().map(|_| share / count as f64));
             state.draws.extend(draws);
         }
@@ -67,4 +69,18 @@ pub fn state(setup: &Setup<'_>, hypotheses: &[&WeighedHypothesis]) -> Option<Sta
     let sum: f64 = state.weights.iter().sum();
     state.weights.iter_mut().for_each(|weight| *weight /= sum);
     Some(state)
+}
+
+/// The scores of the simulator's unknowns at points of a hypothesis.
+fn scores(
+    likelihood: &Likelihood<'_>,
+    simulated: &SimulatedOutputs<'_>,
+    points: &[Vec<f64>],
+) -> Vec<Vec<f64>> {
+    let of_chunk = |points: &[Vec<f64>]| -> Vec<Vec<f64>> {
+        let columns = likelihood.mixed(&likelihood.columns(points));
+        let of_lane = |lane| simulated.scores(&likelihood.roles, &columns, lane);
+        (0..points.len()).map(of_lane).collect()
+    };
+    points.chunks(COLUMN).flat_map(of_chunk).collect()
 }

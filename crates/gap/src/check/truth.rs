@@ -101,6 +101,10 @@ pub fn truth(
     number: u64,
 ) -> Result<(Truth, Vec<Vec<f64>>), OverrideError> {
     case.check()?;
+    if case.simulator.is_some() {
+        let reason = "data of a simulator cannot be drawn without running it".to_owned();
+        return Err(OverrideError::Case { reason });
+    }
     let mut scores = Scores::new(seed, number);
     let drawn = match of_noise {
         CheckedNoise::AsStated => NoiseOfDraw::as_stated(noise.len()),

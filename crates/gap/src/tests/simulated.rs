@@ -195,9 +195,21 @@ fn the_loss_of_a_pendulum_is_named() {
     assert_eq!(again.diagnosis.most_probable.probability, verdict.probability);
 }
 
+/// Both losses act, and together they change the angles by hundreds of u less than the sum of both.
+#[test]
+fn two_losses_of_a_pendulum_are_named() {
+    let case = pendulum(0.012, 8e-4, &BOTH);
+    let (found, _) = diagnosed(&case, no_runs(&case));
+    let verdict = &found.diagnosis.most_probable;
+    assert_eq!(verdict.effects, BOTH);
+    assert!(verdict.probability > 0.8, "{verdict:?}");
+}
+
+/// Friction that ends the swings earlier than any drag does: the program at its best leaves a chi-square of
+/// more than 800 000 for 250 values.
 #[test]
 fn a_loss_that_is_not_on_the_list_is_unexplained() {
-    let case = pendulum(0.0, 3e-4, &["air-drag"]);
+    let case = pendulum(0.0, 3e-3, &["air-drag"]);
     let (found, _) = diagnosed(&case, no_runs(&case));
     let verdict = &found.diagnosis.most_probable;
     assert_eq!(verdict.kind, HypothesisKind::Unexplained, "{verdict:?}");

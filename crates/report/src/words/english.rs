@@ -456,6 +456,12 @@ const GAP: Sentences = &[
         that its probability rests on runs elsewhere. It takes about {runs} more runs"),
     ("emulator.plain-not-run", "Without an effect the simulator was never run at the inputs that the data \
         tell, so that its probability rests on runs elsewhere. It takes about {runs} more runs"),
+    ("simulator", "The simulator was run {runs} times. At what is reported what is taken for its outputs is off \
+        by about {error} standard uncertainties of the data, the norm over all rows. Its rows belong together, so \
+        that no single one is proposed as a measurement"),
+    ("simulator.runs", "The simulator was run {runs} times. Its rows belong together, so that no single one is \
+        proposed as a measurement"),
+    ("simulator.failed", "{failed} of {runs} runs of the simulator failed, the first at {at}: {why}"),
     ("extrapolation", "{outside} of {rows} rows of the prediction lie outside of the conditions of the data. \
         No effect of the list says how the departure goes on there: smooth and composed departures are \
         averaged with less regard to their probabilities, and the standard uncertainty is enlarged with the \

@@ -503,6 +503,12 @@ const GAP: Sentences = &[
         dass die Wahrscheinlichkeit auf Läufen anderswo beruht. Es braucht etwa {runs} weitere Läufe"),
     ("emulator.plain-not-run", "Ohne Effekt lief der Simulator nie bei den Eingangsgrößen, die aus den Daten \
         folgen, so dass die Wahrscheinlichkeit auf Läufen anderswo beruht. Es braucht etwa {runs} weitere Läufe"),
+    ("simulator", "Der Simulator lief {runs}-mal. Bei dem, was angegeben wird, weicht das, was für seine \
+        Ausgaben genommen wird, um etwa {error} Standardunsicherheiten der Daten ab, die Norm über alle Zeilen. \
+        Seine Zeilen gehören zusammen, so dass keine einzelne als Messung vorgeschlagen wird"),
+    ("simulator.runs", "Der Simulator lief {runs}-mal. Seine Zeilen gehören zusammen, so dass keine einzelne als \
+        Messung vorgeschlagen wird"),
+    ("simulator.failed", "{failed} von {runs} Läufen des Simulators schlugen fehl, der erste bei {at}: {why}"),
     ("extrapolation", "{outside} von {rows} Zeilen der Vorhersage liegen außerhalb der Bedingungen der Daten. \
         Kein Effekt der Liste sagt, wie die Abweichung dort weitergeht: Glatte und zusammengesetzte \
         Abweichungen werden mit weniger Rücksicht auf ihre Wahrscheinlichkeiten gemittelt, und die \

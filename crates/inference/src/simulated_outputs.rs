@@ -1,0 +1,300 @@
+//! What a simulator gives in the rows of a case, as its emulator has it.
+
+use std::collections::BTreeMap;
+use std::sync::Arc;
+
+use gumption_emulator::{Emulator, Prediction, Space};
+use gumption_engine::model::variables;
+use gumption_engine::number::{COLUMN, Column, median};
+
+use crate::latent::Role;
+use crate::simulator::{Learnt, Simulator};
+use crate::{Candidate, Case};
+
+impl Case {
+    /// The same after runs of its simulator: `emulator` says what the outputs of all rows are, output after
+    /// output, counted in `units` as [`Case::simulator_units`] has them. `None` in a case without a simulator
+    /// or with another number of values.
+    pub fn emulated(&self, emulator: Emulator, units: Vec<f64>) -> Option<Self> {
+        let simulator = self.simulator.as_ref()?;
+        let rows = self.task.rows.len();
+        let values = (self.simulated - 1) * rows;
+        if emulator.rows() != values || units.len() != values {
+            return None;
+        }
+        let mut case = self.clone();
+        let simulator = Arc::new(simulator.with(emulator, units));
+        case.simulator = Some(Arc::clone(&simulator));
+        let first = self.described();
+        for (number, row) in case.task.rows.iter_mut().enumerate() {
+            let variables = row.estimates();
+            let plain = simulator.plain_at(&variables[..simulator.space().inputs()])?;
+            for (place, value) in values_of_row(self, number).into_iter().enumerate() {
+                row.conditions[first + place] = plain.values[value];
+            }
+        }
+        Some(case)
+    }
+
+    /// What the outputs of a simulator are counted in, for each value of a run: the standard uncertainty of the
+    /// measured value, in the simulator's unit. Where it is not stated it is taken to be what neighbouring
+    /// values depart from straight lines by.
+    pub fn simulator_units(&self) -> Vec<f64> {
+        let rows = self.task.rows.len();
+        let slopes: Vec<Vec<Vec<f64>>> = (0..rows).map(|row| self.slopes(row)).collect();
+        let mut units = Vec::with_capacity(rows * self.simulated);
+        for place in 0..self.simulated.saturating_sub(1) {
+            let name = &self.model.conditions[self.described() + place].name;
+            let output = self.model.outputs.iter().position(|o| o.quantity.name == *name);
+            let observed =
+                output.and_then(|output| Some((output, self.observed[output].as_ref()?)));
+            let Some((output, observed)) = observed else {
+                units.extend(vec![1.0; rows]);
+                continue;
+            };
+            let estimated = || vec![scatter(&observed.values); rows];
+            let u = observed.standard_uncertainties.clone().unwrap_or_else(estimated);
+            units.extend(u.iter().zip(&slopes).map(|(u, slopes)| u / slopes[output][place].abs()));
+        }
+        units
+    }
+
+    /// The effects of the simulator among candidates, in ascending order.
+    pub fn simulator_effects(&self, effects: &[usize]) -> Vec<usize> {
+        let own = |&effect: &usize| self.candidates[effect].simulator;
+        let mut effects: Vec<usize> = effects.iter().filter_map(own).collect();
+        effects.sort_unstable();
+        effects
+    }
+
+    /// The outputs of the model without any effect, and for each output its derivatives with respect to the
+    /// variables. `variables` are those of the program: inputs, then conditions. What the simulator gives is
+    /// its emulator's word, whatever the conditions say.
+    pub fn gradients(&self, variables: &[f64]) -> (Vec<f64>, Vec<Vec<f64>>) {
+        let program = &self.task.model.program;
+        let Some(there) = self.simulated_at(variables) else { return program.gradients(variables) };
+        let (outputs, mut gradients) = program.gradients(&there.variables);
+        let unknowns = there.simulator.space().unknowns(&[]);
+        for gradient in &mut gradients {
+            for (place, &value) in there.values.iter().enumerate() {
+                let slope = gradient[there.first + place];
+                for (&input, column) in unknowns.iter().zip(&there.plain.gradient) {
+                    gradient[input] += slope * column.get(value).copied().unwrap_or(f64::NAN);
+                }
+            }
+        }
+        (outputs, gradients)
+    }
+
+    /// The outputs of the model without any effect, as [`Case::gradients`] has them.
+    pub fn evaluate(&self, variables: &[f64]) -> Vec<f64> {
+        let program = &self.task.model.program;
+        match self.simulated_at(variables) {
+            Some(there) => program.evaluate(&there.variables),
+            None => program.evaluate(variables),
+        }
+    }
+
+    /// What the plain simulator gives in a row, of a case with an emulator.
+    fn simulated_at(&self, variables: &[f64]) -> Option<SimulatedAt<'_>> {
+        let simulator = self.simulator.as_deref()?;
+        let plain = simulator.plain_at(&variables[..simulator.space().inputs()])?;
+        let first = self.first_simulated();
+        let values = values_of_row(self, row_of(self, variables));
+        let mut variables = variables.to_vec();
+        for (place, &value) in values.iter().enumerate() {
+            variables[first + place] = plain.values.get(value).copied().unwrap_or(f64::NAN);
+        }
+        Some(SimulatedAt { simulator, plain, variables, first, values })
+    }
+
+    /// The place among the program's variables of the first output of the simulator.
+    pub(crate) fn first_simulated(&self) -> usize {
+        self.task.variables.len() + self.described()
+    }
+
+    /// What the emulator does not know of the outputs, for each list of effects of the simulator that was run:
+    /// columns of a factor of the covariance by value of the data, in the units of the model's outputs. Empty
+    /// in a case without an emulator.
+    /// `ids` are the places of the rows of the data among those of the case, `outputs` those of the observed
+    /// outputs.
+    pub(crate) fn unseen(
+        &self,
+        ids: &[usize],
+        outputs: &[usize],
+    ) -> BTreeMap<Vec<usize>, Vec<Vec<f64>>> {
+        let simulator = self.simulator.as_ref();
+        let Some(learnt) = simulator.and_then(|simulator| simulator.learnt.as_ref()) else {
+            return BTreeMap::new();
+        };
+        let slopes: Vec<Vec<Vec<f64>>> = ids.iter().map(|&id| self.slopes(id)).collect();
+        let column = |vector: &[f64], size: f64| -> Vec<f64> {
+            let mut column = Vec::with_capacity(ids.len() * outputs.len());
+            for (&id, slopes) in ids.iter().zip(&slopes) {
+                let places = values_of_row(self, id);
+                for &output in outputs {
+                    let parts = places.iter().zip(&slopes[output]);
+                    let part = |(&place, slope): (&usize, &f64)| {
+                        slope * size * vector[place] * learnt.units[place]
+                    };
+                    column.push(parts.map(part).sum());
+                }
+            }
+            column
+        };
+        let of = |effects: &[usize]| {
+            let unseen = learnt.emulator.unseen(effects)?;
+            let factor = unseen.factor.vectors.iter().zip(&unseen.factor.sizes);
+            let columns = factor.map(|(vector, &size)| column(vector, size)).collect();
+            Some((effects.to_vec(), columns))
+        };
+        learnt.emulator.hypotheses().filter_map(of).collect()
+    }
+
+    /// For each output of the model in a row its derivatives by the outputs of the simulator.
+    fn slopes(&self, row: usize) -> Vec<Vec<f64>> {
+        let first = self.first_simulated();
+        let (_, gradients) = self.gradients(&self.task.rows[row].estimates());
+        let own = first..first + self.simulated - 1;
+        gradients.into_iter().map(|gradient| gradient[own.clone()].to_vec()).collect()
+    }
+}
+
+/// What values scatter by about straight lines through their neighbours, at least a thousandth of what they
+/// span.
+fn scatter(values: &[f64]) -> f64 {
+    let bends = values.windows(3).map(|of| (of[0] - 2.0 * of[1] + of[2]).abs()).collect();
+    // of normal noise the median is 0.6745 standard deviations, each of root 6 ones of a value
+    let bend = median(bends).unwrap_or(0.0) / (0.6745 * 6.0f64.sqrt());
+    let least = values.iter().copied().fold(f64::INFINITY, f64::min);
+    let most = values.iter().copied().fold(f64::NEG_INFINITY, f64::max);
+    bend.max(1e-3 * (most - least)).max(f64::MIN_POSITIVE.sqrt())
+}
+
+/// The plain simulator in a row.
+struct SimulatedAt<'c> {
+    simulator: &'c Simulator,
+    plain: Arc<Prediction>,
+    /// Those of the program, with what the simulator gives.
+    variables: Vec<f64>,
+    first: usize,
+    /// For each output its place among the values of a run.
+    values: Vec<usize>,
+}
+
+/// What a simulator gives under a hypothesis, for points of its unknown quantities side by side.
+#[derive(Debug)]
+pub(crate) struct SimulatedOutputs<'c> {
+    case: &'c Case,
+    learnt: &'c Learnt,
+    space: &'c Space,
+    /// Those of the simulator, in ascending order.
+    effects: Vec<usize>,
+    sources: Vec<Source>,
+}
+
+/// Where the value of an unknown parameter of the simulator comes from.
+#[derive(Clone, Copy, Debug)]
+enum Source {
+    /// The unknown quantity at this place.
+    Role(usize),
+    /// The input's estimate.
+    Estimate(f64),
+}
+
+impl<'c> SimulatedOutputs<'c> {
+    /// Of a hypothesis with these roles; `None` in a case without an emulator.
+    pub(crate) fn new(case: &'c Case, effects: &[usize], roles: &[Role]) -> Option<Self> {
+        let simulator = case.simulator.as_deref()?;
+        let (learnt, space) = (simulator.learnt.as_ref()?, simulator.space());
+        let own = case.simulator_effects(effects);
+        let first = variables(&case.model.inputs, &case.model.conditions);
+        // the place among the simulator's parameters of each variable after the conditions
+        let of_candidate = |candidate: &Candidate| -> Vec<Option<usize>> {
+            match candidate.simulator {
+                Some(effect) => space.parameters(effect).map(Some).collect(),
+                None => vec![None; candidate.priors.len()],
+            }
+        };
+        let of_effects: Vec<Option<usize>> =
+            effects.iter().flat_map(|&effect| of_candidate(&case.candidates[effect])).collect();
+        let parameter = |variable: usize| match variable.checked_sub(first) {
+            Some(place) => of_effects.get(place).copied().flatten(),
+            None => Some(variable),
+        };
+        let source = |unknown: usize| {
+            let is_it = |role: &Role| match role {
+                Role::Variable { place, .. } => parameter(*place) == Some(unknown),
+                Role::Noise { .. } | Role::Power { .. } => false,
+            };
+            match roles.iter().position(is_it) {
+                Some(place) => Source::Role(place),
+                None => Source::Estimate(case.task.rows[0].distributions[unknown].mean()),
+            }
+        };
+        let sources = space.unknowns(&own).into_iter().map(source).collect();
+        Some(Self { case, learnt, space, effects: own, sources })
+    }
+
+    /// The values of the simulator's unknowns in a lane.
+    fn values(&self, roles: &[Role], scores: &[Column], lane: usize) -> Vec<f64> {
+        let value = |source: &Source| match *source {
+            Source::Estimate(value) => value,
+            Source::Role(place) => {
+                let map = roles[place].map();
+                map.map_or(f64::NAN, |map| map.value(scores[place].0[lane]))
+            }
+        };
+        self.sources.iter().map(value).collect()
+    }
+
+    /// The scores of the simulator's unknowns in a lane.
+    pub(crate) fn scores(&self, roles: &[Role], scores: &[Column], lane: usize) -> Vec<f64> {
+        self.space.scores(&self.effects, &self.values(roles, scores, lane))
+    }
+
+    /// The values of all rows for the first lanes of scores, output after output.
+    pub(crate) fn lanes(&self, roles: &[Role], scores: &[Column], lanes: usize) -> Vec<Vec<f64>> {
+        let of_lane = |lane: usize| {
+            let values = self.values(roles, scores, lane);
+            let point = self.space.at_values(&self.effects, &values);
+            let mut outputs = self.learnt.emulator.values(&self.effects, &point);
+            outputs.iter_mut().zip(&self.learnt.units).for_each(|(value, unit)| *value *= unit);
+            outputs
+        };
+        (0..lanes).map(of_lane).collect()
+    }
+
+    /// The program's variables that the simulator gives in a row of the data, by its place among those of the
+    /// case, each with its value in every lane of [`SimulatedOutputs::lanes`]; not numbers beyond them.
+    pub(crate) fn of_row<'l>(
+        &self,
+        row: usize,
+        lanes: &'l [Vec<f64>],
+    ) -> impl Iterator<Item = (usize, Column)> + use<'l> {
+        let first = self.case.first_simulated();
+        let places = values_of_row(self.case, row);
+        places.into_iter().enumerate().map(move |(output, place)| {
+            let mut column = Column([f64::NAN; COLUMN]);
+            for (lane, values) in lanes.iter().enumerate() {
+                column.0[lane] = values.get(place).copied().unwrap_or(f64::NAN);
+            }
+            (first + output, column)
+        })
+    }
+}
+
+/// The place among the rows of a case of one with these conditions, which a simulator was run at; beyond all
+/// of them where it was not.
+pub(crate) fn row_of(case: &Case, conditions: &[f64]) -> usize {
+    let row = conditions.last().copied().unwrap_or(f64::NAN);
+    if row >= 0.0 && row < case.task.rows.len() as f64 { row as usize } else { usize::MAX }
+}
+
+/// For each output of a simulator the place of a row's value among those of a run; beyond all of them where
+/// it was not run at the row.
+fn values_of_row(case: &Case, row: usize) -> Vec<usize> {
+    let rows = case.task.rows.len();
+    let place = |output: usize| if row < rows { output * rows + row } else { usize::MAX };
+    (0..case.simulated - 1).map(place).collect()
+}
