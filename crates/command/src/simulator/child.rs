@@ -298,8 +298,13 @@ fn receive(stdout: impl Read, most: usize, answers: Answers, write: &SyncSender<
         } else {
             Written::Answer(answer)
         };
-        let goes_on = !is_end && matches!(written, Written::Answer(_));
-        if write.send(written).is_err() || !goes_on {
+        let is_answer = matches!(written, Written::Answer(_));
+        if write.send(written).is_err() || is_end && is_answer {
+            return;
+        }
+        if !is_answer {
+            // until it is ended: a closed pipe would be another failure
+            let _ = io::copy(&mut stdout, &mut io::sink());
             return;
         }
     }
