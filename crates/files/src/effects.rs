@@ -6,9 +6,9 @@ use super::conditions::NoConditions;
 use super::input_set::InputSet;
 use super::inputs;
 use super::keys;
+use super::neutral;
 use super::results::ResultFiles;
 use super::scopes::report_formula;
-use super::simulator;
 use gumption_engine::distribution::Distribution;
 use gumption_engine::fact;
 use gumption_engine::fact::Argument;
@@ -170,7 +170,7 @@ impl EffectsReader<'_> {
         }
         let neutral = match &overrides {
             Some(_) => None,
-            None => Some(simulator::neutral(&object, &effect.parameters, diagnostic)?),
+            None => Some(neutral::read(&object, &effect.parameters, diagnostic)?),
         };
         if let (Err(circular), Some(overrides)) = (self.sim?.program(&[&effect]), &overrides) {
             let reason = format!("overrides quantities that need each other: {}", circular);
