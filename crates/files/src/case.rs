@@ -10,7 +10,7 @@ use super::effects;
 use super::formula_notes::UNUSED_INPUT;
 use super::model_reader::{FoundModel, ModelOptions, ModelReader, read_with};
 use super::results::ResultFiles;
-use super::{catalogue, prior, simulator, soundness};
+use super::{catalogue, prior, simulator_case, soundness};
 use gumption_engine::task::{Row, Warning};
 use gumption_gap::Case;
 use gumption_text::{DiagnosticKind, Diagnostics, SourceText};
@@ -103,7 +103,7 @@ impl ModelReader<'_> {
         if let Some(data) = found.as_ref().and_then(|found| found.data.as_ref()) {
             soundness::check(self.root.log, &read, &placed, data);
         }
-        let simulator = simulator::of_case(&self.root, read.sim, read.task, &mut placed);
+        let simulator = simulator_case::read(&self.root, read.sim, read.task, &mut placed);
         shipped.filter(|()| complete && self.root.log.is_clean())?;
         let unlisted = catalogue::unlisted(&read, &results, &placed);
         let FoundModel { file, sim, observed, simulated, history, reachable, replication, .. } =

@@ -6,9 +6,9 @@ use super::conditions::NoConditions;
 use super::input_set::InputSet;
 use super::inputs;
 use super::keys;
+use super::neutral;
 use super::results::ResultFiles;
 use super::scopes::report_formula;
-use super::simulator;
 use gumption_engine::distribution::Distribution;
 use gumption_engine::fact;
 use gumption_engine::fact::Argument;
@@ -61,8 +61,7 @@ pub(super) fn read_one(
     results: &ResultFiles<'_>,
     warnings: &mut Vec<Warning>,
 ) -> Option<Placed> {
-    let (candidate, neutral) = EffectsReader { log, sim, results, warnings }.effect(member)?;
-    Some(Placed { candidate, place: member.key_span.clone(), neutral })
+    EffectsReader { log, sim, results, warnings }.effect(member)
 }
 
 /// What the effects have in common: not too many, and no pair that needs each other.
@@ -110,8 +109,7 @@ struct EffectsReader<'a> {
 }
 
 impl EffectsReader<'_> {
-    /// An effect, and what makes it absent if the simulator does it.
-    fn effect(&mut self, member: &Member) -> Option<(Candidate, Option<Vec<(usize, f64)>>)> {
+    fn effect(&mut self, member: &Member) -> Option<Placed> {
         let object = Object::new(self.log, "an effect", &member.value, &member.key_span)?;
         keys::check(&object, keys::EFFECT);
         let diagnostic = |reason: &str| DiagnosticKind::Effect {
@@ -170,7 +168,7 @@ impl EffectsReader<'_> {
         }
         let neutral = match &overrides {
             Some(_) => None,
-            None => Some(simulator::neutral(&object, &effect.parameters, diagnostic)?),
+            None => Some(neutral::read(&object, &effect.parameters, diagnostic)?),
         };
         if let (Err(circular), Some(overrides)) = (self.sim?.program(&[&effect]), &overrides) {
             let reason = format!("overrides quantities that need each other: {}", circular);
@@ -186,7 +184,7 @@ impl EffectsReader<'_> {
                 source: object.text("source").unwrap_or("").to_owned(),
                 simulator: None,
             };
-            (candidate, neutral)
+            Placed { candidate, place: member.key_span.clone(), neutral }
         })
     }
 

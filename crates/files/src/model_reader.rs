@@ -435,7 +435,10 @@ impl<'a> ModelReader<'a> {
                 (scope, ModelForm::Typed(entry.typed))
             }
             ModelBody::Simulator(given) => {
-                simulator::check_outputs(&self.root, &given, &of.outputs, of.check_units);
+                let outputs = (&of.outputs.outputs[..], &of.outputs.places[..]);
+                if of.outputs.without_unit.is_empty() {
+                    simulator::check_outputs(&self.root, &given, outputs, of.check_units);
+                }
                 let scope = condition_scope(&of.conditions, of.check_units);
                 let scope = simulator::scope(scope, &of.inputs, &given);
                 check_formula_outputs(log, &scope, of);

@@ -2,21 +2,16 @@
 
 use std::ops::Range;
 
-use gumption_emulator::{Parameter, SimulatorEffect, Space};
-use gumption_engine::model::{Quantity, variables};
-use gumption_engine::task::{Sharing, Task};
-use gumption_gap::{ModelForm, ObservedOutput, OverridableModel, Simulator, simulator_conditions};
+use gumption_engine::model::formula::{Scope, Typing};
+use gumption_engine::model::{Output, Quantity};
+use gumption_gap::{ObservedOutput, OverridableModel, simulator_conditions};
 use gumption_text::DiagnosticKind;
 use gumption_text::json::Member;
 use gumption_text::object::Object;
-use gumption_text::value_text::ValueOf;
 
 use super::conditions::{Conditions, parse_unit};
-use super::effects::Placed;
 use super::input_set::InputSet;
 use super::keys;
-use super::outputs::Outputs;
-use gumption_engine::model::formula::{Scope, Typing};
 
 /// What a simulator gives: each output in the unit that it is given in, and where the file says so.
 pub(super) type Given = Vec<(Quantity, Range<usize>)>;
@@ -64,20 +59,19 @@ pub(super) fn scope(mut scope: Scope, inputs: &InputSet, given: &Given) -> Scope
 pub(super) fn check_outputs(
     root: &Object<'_>,
     given: &Given,
-    outputs: &Outputs,
+    (outputs, places): (&[Output], &[Range<usize>]),
     check_units: bool,
 ) {
     let report = |place: &Range<usize>, reason: String| {
         root.log.report(place, DiagnosticKind::Simulator { reason });
     };
-    for (output, place) in outputs.outputs.iter().zip(&outputs.places) {
+    for (output, place) in outputs.iter().zip(places) {
         let Quantity { name, unit, .. } = &output.quantity;
         match given.iter().find(|(given, _)| given.name == *name) {
             None => report(
                 place,
                 format!("does not give the output `{name}`; add it to the simulator's `outputs`"),
             ),
-            Some(_) if outputs.without_unit.contains(name) => {}
             Some((given, place)) => {
                 let fits = if check_units {
                     given.unit.dimension() == unit.dimension()
@@ -95,7 +89,7 @@ pub(super) fn check_outputs(
         }
     }
     for (given, place) in given {
-        if !outputs.outputs.iter().any(|output| output.quantity.name == given.name) {
+        if !outputs.iter().any(|output| output.quantity.name == given.name) {
             let name = &given.name;
             report(place, format!("gives `{name}`, which is none of the file's `outputs`"));
         }
@@ -136,112 +130,6 @@ pub(super) fn add_conditions(
     let count = added.len();
     conditions.quantities.extend(added);
     Some(count)
-}
-
-/// Numbers the candidates that the simulator can do by itself; it with its parameters, unless they are none.
-pub(super) fn of_case(
-    root: &Object<'_>,
-    sim: &OverridableModel,
-    task: &Task,
-    placed: &mut [Placed],
-) -> Option<Simulator> {
-    let member = root.get("simulator").filter(|_| matches!(sim.maker, ModelForm::Simulated))?;
-    let report = |place: &Range<usize>, reason: String| {
-        root.log.report(place, DiagnosticKind::Simulator { reason });
-    };
-    let mut names: Vec<&str> = Vec::new();
-    let mut inputs = Vec::new();
-    let first = task.rows.first()?;
-    if variables(&sim.inputs, &[]) != sim.inputs.len() {
-        report(&member.key_span, "takes inputs of one number each; an input here has parts".into());
-        return None;
-    }
-    for (variable, prior) in task.variables.iter().zip(first.distributions.iter()) {
-        let name = &variable.name;
-        if variable.sharing != Sharing::All {
-            let reason = format!(
-                "is run with one value of each input for all rows, and `{name}` has one for each row \
-                 or condition"
-            );
-            report(&member.key_span, reason);
-            return None;
-        }
-        names.push(name);
-        inputs.push(Parameter { name: name.clone(), prior: (**prior).clone() });
-    }
-    let mut effects = Vec::new();
-    for placed in placed.iter_mut() {
-        let Some(neutral) = placed.neutral.clone() else { continue };
-        let candidate = &mut placed.candidate;
-        candidate.simulator = Some(effects.len());
-        let parameters = candidate.effect.parameters.iter().zip(&candidate.priors);
-        let parameters =
-            parameters.map(|(q, prior)| Parameter { name: q.name.clone(), prior: prior.clone() });
-        let parameters: Vec<Parameter> = parameters.collect();
-        effects.push(SimulatorEffect { name: candidate.effect.name.clone(), parameters, neutral });
-    }
-    for placed in placed.iter().filter(|placed| placed.neutral.is_some()) {
-        for quantity in &placed.candidate.effect.parameters {
-            if names.contains(&quantity.name.as_str()) {
-                let reason = format!(
-                    "gets all parameters by their names, and there are two of `{}`; give each a name of \
-                     its own",
-                    quantity.name
-                );
-                report(&placed.place, reason);
-                return None;
-            }
-            names.push(&quantity.name);
-        }
-    }
-    let space = Space::new(inputs, effects);
-    let space = space.map_err(|error| report(&member.key_span, format!("cannot be run: {error}")));
-    Some(Simulator::new(space.ok()?))
-}
-
-/// What makes an effect of the simulator absent: places of its parameters with values; `None` after a
-/// mistake. With one parameter it is 0 where the file does not say so.
-pub(super) fn neutral(
-    effect: &Object<'_>,
-    parameters: &[Quantity],
-    diagnostic: impl Fn(&str) -> DiagnosticKind,
-) -> Option<Vec<(usize, f64)>> {
-    let Some(member) = effect.get("neutral") else {
-        return match parameters {
-            [_] => Some(vec![(0, 0.0)]),
-            [] => {
-                effect.report(diagnostic(
-                    "has no parameter, and the simulator can only do what a parameter lets it",
-                ));
-                None
-            }
-            [first, ..] => {
-                let reason = format!(
-                    "has {} parameters; say which of them make it absent, and at what values: \
-                     `\"neutral\": {{\"{}\": 0}}`, the others being its shape",
-                    parameters.len(),
-                    first.name
-                );
-                effect.report(diagnostic(&reason));
-                None
-            }
-        };
-    };
-    let object = Object::new(effect.log, "`neutral`", &member.value, &member.key_span)?;
-    if object.members().is_empty() {
-        object.report(diagnostic("names no parameter that makes it absent"));
-        return None;
-    }
-    let value = |member: &Member| {
-        let Some(place) = parameters.iter().position(|p| p.name == member.key) else {
-            let reason = format!("has no parameter `{}` that could make it absent", member.key);
-            effect.log.report(&member.key_span, diagnostic(&reason));
-            return None;
-        };
-        let unit = &parameters[place].unit;
-        Some((place, object.value(&member.key, unit, ValueOf::Quantity)?))
-    };
-    object.members().iter().map(value).collect::<Vec<_>>().into_iter().collect()
 }
 
 #[cfg(test)]

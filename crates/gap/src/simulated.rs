@@ -5,9 +5,9 @@
 
 use std::sync::Arc;
 
-use gumption_emulator::{
-    Batch, Emulator, Ending, GOAL, Open, Plan, Run, Runs, SimulatorRun, Space, State, Step,
-    UnseenError,
+use gumption_emulator::{Batch, Emulator, GOAL, Plan, SimulatorRun, State, Step, UnseenError};
+pub use gumption_emulator::{
+    Ending, Open, Parameter, Run, RunHash, Runs, RunsError, SimulatorEffect, Space, SpaceError,
 };
 use gumption_engine::decimal::significant;
 use gumption_engine::fact;

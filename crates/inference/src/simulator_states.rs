@@ -15,7 +15,7 @@ use crate::simulated_outputs::SimulatedOutputs;
 const DRAWS: usize = 200;
 
 /// How much is computed between runs: modes are those of the round before, or near them.
-const BETWEEN: Effort<'static> = Effort { starts: 4, generations: 0, rounds: 0, ..Effort::QUICK };
+const BETWEEN: Effort<'static> = Effort { generations: 0, rounds: 0, ..Effort::FULL };
 
 /// Hypotheses of a case with the emulator as it is, each a list of candidates; `known` are those of the round
 /// before, from whose modes they are searched where they have the same unknown quantities.
