@@ -507,7 +507,8 @@ fn assert_drag(answer: &Value) {
 #[test]
 fn the_gap_of_a_program_is_diagnosed_and_its_runs_are_kept() {
     let folder = pendulum("log('start')\nfor line in sys.stdin: print(answer(line), flush=True)");
-    let arguments = ["--simulator-lines", "python3 sim.py", "--keep", "runs", "--threads", "1"];
+    let kept = ["--keep", "runs", "--threads", "1"];
+    let arguments = [&["--simulator", "python3 sim.py", "--simulator-lines"][..], &kept].concat();
     let (first, _) = diagnosed(&folder, &arguments);
     assert_drag(&first);
     assert_eq!(log(&folder), ["start"]);
@@ -599,8 +600,7 @@ fn options_of_a_simulator_need_one_another() {
     let shell = "gumption: `a | b` has `|`, but is started without a shell; write sh -c '...'";
     assert_eq!(failure(&["case.json", "--simulator", "a | b"]), shell);
     for arguments in [
-        &["--simulator", "a", "--simulator-lines", "b"][..],
-        &["--simulator", "a", "--made", "b"],
+        &["--simulator", "a", "--made", "b"][..],
         &["--simulator", "a", "--design", "b"],
     ] {
         let message = failure(&[&["case.json"], arguments].concat());
@@ -614,7 +614,7 @@ fn options_of_a_simulator_need_one_another() {
     assert!(message.ends_with("a positive number of seconds is needed, such as 60 or 0.5"));
     let message = failure(&["case.json", "--design", "a", "--runs", "10"]);
     assert_eq!(message, "gumption: the simulator has to be run 14 times at least");
-    for option in ["--simulator", "--simulator-lines", "--made", "--design"] {
+    for option in ["--simulator", "--made", "--design"] {
         let message = failure(&[plain, option, "a"]);
         let reason =
             "needs a case whose outputs come from a simulator; this case has no `simulator`";

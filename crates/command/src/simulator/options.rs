@@ -25,32 +25,28 @@ pub(crate) struct SimulatorOptions {
     /// Program that computes the outputs: it is started for each run, reads parameters and conditions
     /// as JSON on standard input, and writes outputs as JSON on standard output. COMMAND is split into
     /// words as in a shell, but started without one
-    #[arg(
-        long,
-        value_name = "COMMAND",
-        group = "program",
-        conflicts_with_all = ["simulator_lines", "predict"]
-    )]
+    #[arg(long, value_name = "COMMAND", conflicts_with = "predict")]
     simulator: Option<String>,
-    /// The same, started once for many runs: one line of JSON for each run and for each answer
-    #[arg(long, value_name = "COMMAND", group = "program", conflicts_with = "predict")]
-    simulator_lines: Option<String>,
+    /// Start the simulator once for many runs: it reads a line of JSON for each run, and writes a line
+    /// for each answer
+    #[arg(long, requires = "simulator")]
+    simulator_lines: bool,
     /// Maximum number of runs of the simulator [default: 300]
     #[arg(long, value_name = "N", value_parser = runs)]
     runs: Option<usize>,
     /// Write each run to FOLDER as soon as it ends, and use the runs that are there
-    #[arg(long, value_name = "FOLDER", requires = "program")]
+    #[arg(long, value_name = "FOLDER", requires = "simulator")]
     keep: Option<PathBuf>,
     /// Use the runs in FOLDER, and make none: kept runs, or parameters.csv with a file for each run,
     /// 1.json or 1.csv
-    #[arg(long, value_name = "FOLDER", conflicts_with_all = ["program", "predict"])]
+    #[arg(long, value_name = "FOLDER", conflicts_with_all = ["simulator", "predict"])]
     made: Option<PathBuf>,
     /// Write the parameters of runs to be made elsewhere to FILE (CSV), and diagnose nothing
-    #[arg(long, value_name = "FILE", conflicts_with_all = ["program", "made", "predict"])]
+    #[arg(long, value_name = "FILE", conflicts_with_all = ["simulator", "made", "predict"])]
     design: Option<PathBuf>,
     /// End a run that takes longer, with all processes that it started (on Windows the program alone);
     /// it has then failed
-    #[arg(long, value_name = "SECONDS", value_parser = seconds, requires = "program")]
+    #[arg(long, value_name = "SECONDS", value_parser = seconds, requires = "simulator")]
     run_timeout: Option<Duration>,
 }
 
@@ -93,7 +89,7 @@ impl SimulatorOptions {
         stop: &Arc<AtomicBool>,
     ) -> Result<Option<(SimulatedCase, Vec<String>)>, Failure> {
         let Some(given) = of_case(case) else {
-            let is_asked = self.command().is_some() || self.made.is_some();
+            let is_asked = self.simulator.is_some() || self.made.is_some();
             return if is_asked { Err(self.without_simulator()) } else { Ok(None) };
         };
         if let Some(folder) = &self.made {
@@ -104,7 +100,7 @@ impl SimulatorOptions {
             let stop = Arc::clone(stop);
             return Ok(Some((SimulatedCase { runs, simulator, budget, stop }, notes)));
         }
-        let Some(command) = self.command() else {
+        let Some(command) = self.simulator.as_deref() else {
             let reason = "the outputs of this case come from a simulator: add --simulator COMMAND to run \
                           it, --made FOLDER to use runs that were made, or --design FILE to write which \
                           runs to make";
@@ -114,10 +110,6 @@ impl SimulatorOptions {
         let (runs, notes) = self.runs(given, command)?;
         let (simulator, budget) = (Box::new(program), self.budget());
         Ok(Some((SimulatedCase { runs, simulator, budget, stop: Arc::clone(stop) }, notes)))
-    }
-
-    fn command(&self) -> Option<&str> {
-        self.simulator.as_deref().or(self.simulator_lines.as_deref())
     }
 
     fn budget(&self) -> usize {
@@ -135,7 +127,7 @@ impl SimulatorOptions {
         if let Some(timeout) = self.run_timeout {
             program = program.with_timeout(timeout);
         }
-        Ok(if self.simulator_lines.is_some() { program.line_by_line() } else { program })
+        Ok(if self.simulator_lines { program.line_by_line() } else { program })
     }
 
     fn runs(
@@ -151,11 +143,10 @@ impl SimulatorOptions {
 
     /// The error that an option needs a simulator.
     fn without_simulator(&self) -> Failure {
-        let option = match (&self.simulator, &self.simulator_lines, &self.made) {
-            (Some(_), ..) => "--simulator",
-            (_, Some(_), _) => "--simulator-lines",
-            (.., Some(_)) => "--made",
-            _ => "--design",
+        let option = match (&self.simulator, &self.made) {
+            (Some(_), _) => "--simulator",
+            (None, Some(_)) => "--made",
+            (None, None) => "--design",
         };
         Failure::Argument(format!(
             "`{option}` needs a case whose outputs come from a simulator; this case has no `simulator`"
