@@ -599,10 +599,9 @@ fn options_of_a_simulator_need_one_another() {
     assert_eq!(failure(&["case.json"]), none);
     let shell = "gumption: `a | b` has `|`, but is started without a shell; write sh -c '...'";
     assert_eq!(failure(&["case.json", "--simulator", "a | b"]), shell);
-    for arguments in [
-        &["--simulator", "a", "--made", "b"][..],
-        &["--simulator", "a", "--design", "b"],
-    ] {
+    for arguments in
+        [&["--simulator", "a", "--made", "b"][..], &["--simulator", "a", "--design", "b"]]
+    {
         let message = failure(&[&["case.json"], arguments].concat());
         assert!(message.contains("cannot be used with"), "{message}");
     }
