@@ -78,7 +78,7 @@ impl Program {
     }
 
     /// Makes runs until there are none left.
-    fn work(&self, batch: &Batch<'_>, give: &Sender<(usize, RunResult)>) {
+    fn work(&self, batch: &RequestedRuns<'_>, give: &Sender<(usize, RunResult)>) {
         loop {
             let index = batch.next.fetch_add(1, Ordering::Relaxed);
             let Some(parameters) = batch.parameters.get(index) else { return };
@@ -120,7 +120,7 @@ impl Simulator for Program {
         case: &SimulatorCase,
         finished: &mut dyn FnMut(usize, RunResult) -> ControlFlow<()>,
     ) {
-        let batch = Batch {
+        let batch = RequestedRuns {
             parameters: batch,
             case,
             requests: Requests::of(case),
@@ -153,7 +153,7 @@ impl Simulator for Program {
 }
 
 /// Runs that are shared out.
-struct Batch<'b> {
+struct RequestedRuns<'b> {
     parameters: &'b [Vec<f64>],
     case: &'b SimulatorCase,
     requests: Requests<'b>,
