@@ -152,9 +152,9 @@ fn a_program_that_hangs_is_ended_with_what_it_started() {
     let folder = tempfile::tempdir().unwrap();
     let id = folder.path().join("id");
     let script = format!("sleep 600 & echo $! > '{}'; echo waiting >&2; wait", id.display());
-    let found = failure(&script, Some(Duration::from_secs(1)));
+    let found = failure(&script, Some(Duration::from_secs(4)));
     assert!(
-        found.ends_with("it did not end within 1 s; its standard error ends with:\nwaiting"),
+        found.ends_with("it did not end within 4 s; its standard error ends with:\nwaiting"),
         "{found}"
     );
     let id = fs::read_to_string(id).unwrap();
