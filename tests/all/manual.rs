@@ -268,7 +268,19 @@ fn the_drift_of_the_manual_is_extrapolated() {
     assert!((found("dof") / dof - 1.0).abs() < 1e-9);
 }
 
-/// Files of the crates, without their tests.
+/// The sources of all crates, without their tests.
+pub(crate) fn sources_of_crates() -> Vec<String> {
+    let mut texts = Vec::new();
+    for entry in fs::read_dir(root().join("crates")).expect("the crates") {
+        let source = entry.expect("an entry").path().join("src");
+        if source.is_dir() {
+            sources(&source, &mut texts);
+        }
+    }
+    texts
+}
+
+/// The sources of a folder, without their tests.
 fn sources(folder: &Path, found: &mut Vec<String>) {
     for entry in fs::read_dir(folder).expect("a folder") {
         let path = entry.expect("an entry").path();
@@ -296,13 +308,7 @@ fn codes_of_notes_and_mistakes_are_those_of_the_page() {
         !of.is_empty()
             && of.chars().all(|c| c.is_ascii_lowercase() || c.is_ascii_digit() || c == '-')
     };
-    let mut texts = Vec::new();
-    for entry in fs::read_dir(root().join("crates")).expect("the crates") {
-        let source = entry.expect("an entry").path().join("src");
-        if source.is_dir() {
-            sources(&source, &mut texts);
-        }
-    }
+    let texts = sources_of_crates();
     // the sentences of notes, without the parts of sentences
     let words = root().join("crates/report/src/words/english.rs");
     let words = fs::read_to_string(words).expect("the sentences");

@@ -2,23 +2,9 @@
 
 use std::collections::BTreeMap;
 use std::fs;
-use std::path::Path;
 
+use crate::manual::sources_of_crates;
 use crate::support::root;
-
-/// The sources of a crate outside tests.
-fn sources(folder: &Path, found: &mut Vec<String>) {
-    for entry in fs::read_dir(folder).expect("a folder") {
-        let path = entry.expect("an entry").path();
-        let name = path.file_name().map(|name| name.to_string_lossy().into_owned());
-        let name = name.unwrap_or_default();
-        if path.is_dir() && name != "tests" {
-            sources(&path, found);
-        } else if name.ends_with(".rs") && name != "tests.rs" {
-            found.push(fs::read_to_string(&path).expect("a file"));
-        }
-    }
-}
 
 /// The key and the names of the arguments of each `fact!` of a source, in alphabetical order.
 fn facts(source: &str) -> Vec<(String, Vec<String>)> {
@@ -71,10 +57,7 @@ fn sentences(language: &str) -> BTreeMap<String, Vec<String>> {
 
 #[test]
 fn every_fact_has_its_sentence_and_every_sentence_its_fact() {
-    let mut texts = Vec::new();
-    for entry in fs::read_dir(root().join("crates")).expect("the crates") {
-        sources(&entry.expect("an entry").path().join("src"), &mut texts);
-    }
+    let texts = sources_of_crates();
     let english = sentences("english.rs");
     let mut used: BTreeMap<&str, usize> = english.keys().map(|key| (key.as_str(), 0)).collect();
     let all: Vec<(String, Vec<String>)> = texts.iter().flat_map(|text| facts(text)).collect();
