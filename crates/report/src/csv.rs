@@ -137,10 +137,8 @@ fn cells(output: &OutputEvaluation) -> [String; 16] {
     ]
 }
 
-/// The records that `write` writes, as text.
-pub(crate) fn of_records(
-    write: impl FnOnce(&mut csv::Writer<&mut Vec<u8>>) -> csv::Result<()>,
-) -> String {
+/// The records that `write` writes, as text (RFC 4180).
+pub fn of_records(write: impl FnOnce(&mut csv::Writer<&mut Vec<u8>>) -> csv::Result<()>) -> String {
     in_memory(|bytes| {
         let mut writer = csv::Writer::from_writer(bytes);
         write(&mut writer)?;

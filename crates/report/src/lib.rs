@@ -35,7 +35,7 @@ mod workbook;
 
 pub use answer::{on_one_line, pretty};
 pub use budget_template::budget_template;
-pub use csv::{csv, write_csv};
+pub use csv::{csv, of_records as csv_of_records, write_csv};
 pub use evaluation::{
     MOST_RESULTS, OutputParts, PageChoice, PageParts, ResultStatement, Shown, html, input_picture,
     latex, markdown, page_parts, table, xlsx,
