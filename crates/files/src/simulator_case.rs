@@ -5,7 +5,7 @@ use std::ops::Range;
 use gumption_emulator::{Parameter, SimulatorEffect, Space};
 use gumption_engine::model::variables;
 use gumption_engine::task::{Sharing, Task};
-use gumption_gap::{ModelForm, OverridableModel, Simulator};
+use gumption_gap::{ModelForm, OverridableModel, SimulatorModel};
 use gumption_text::DiagnosticKind;
 use gumption_text::object::Object;
 
@@ -17,7 +17,7 @@ pub(super) fn read(
     sim: &OverridableModel,
     task: &Task,
     placed: &mut [Placed],
-) -> Option<Simulator> {
+) -> Option<SimulatorModel> {
     let member = root.get("simulator").filter(|_| matches!(sim.maker, ModelForm::Simulated))?;
     let report = |place: &Range<usize>, reason: String| {
         root.log.report(place, DiagnosticKind::Simulator { reason });
@@ -69,5 +69,5 @@ pub(super) fn read(
     }
     let space = Space::new(inputs, effects);
     let space = space.map_err(|error| report(&member.key_span, format!("cannot be run: {error}")));
-    Some(Simulator::new(space.ok()?))
+    Some(SimulatorModel::new(space.ok()?))
 }

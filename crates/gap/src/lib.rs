@@ -45,7 +45,8 @@ pub use gumption_inference::scan::GapRegion;
 pub use gumption_inference::shape::ComposedForm;
 pub use gumption_inference::{
     Candidate, Case, Effect, History, HistoryKind, MOST_GROUPS, ModelForm, ObservedOutput,
-    OverridableModel, OverrideError, OwnSizes, Prior, Replication, Simulator, simulator_conditions,
+    OverridableModel, OverrideError, OwnSizes, Prior, Replication, SimulatorModel,
+    simulator_conditions,
 };
 pub use selection::{ModelSelection, noise, nominal, select_model};
 

@@ -2,7 +2,7 @@
 
 use std::sync::Arc;
 
-use crate::{Effect, History, OverridableModel, OverrideError, Replication, Simulator};
+use crate::{Effect, History, OverridableModel, OverrideError, Replication, SimulatorModel};
 use gumption_engine::distribution::Distribution;
 use gumption_engine::model::Program;
 use gumption_engine::task::{Coverage, Task};
@@ -23,7 +23,7 @@ pub struct Case {
     /// the row.
     pub simulated: usize,
     /// The simulator that the model is; `None` of formulas and typed models.
-    pub simulator: Option<Arc<Simulator>>,
+    pub simulator: Option<Arc<SimulatorModel>>,
     /// The conditions before those that follow from the order of the rows, in their places.
     pub history: Vec<History>,
     /// Between which values each condition can be set, in its unit; `None` where that is not known,

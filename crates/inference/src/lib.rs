@@ -44,7 +44,7 @@ pub use case::{Candidate, Case, ObservedOutput, Prior};
 pub use history::{History, HistoryKind};
 pub use model::{Effect, ModelForm, OverridableModel, OverrideError};
 pub use replication::{MOST_GROUPS, OwnSizes, Replication};
-pub use simulator::{Simulator, simulator_conditions};
+pub use simulator::{SimulatorModel, simulator_conditions};
 
 #[cfg(test)]
 mod tests;

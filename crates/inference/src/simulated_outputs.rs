@@ -8,7 +8,7 @@ use gumption_engine::model::variables;
 use gumption_engine::number::{COLUMN, Column, median};
 
 use crate::latent::Role;
-use crate::simulator::{Learnt, Simulator};
+use crate::simulator::{Learnt, SimulatorModel};
 use crate::{Candidate, Case};
 
 impl Case {
@@ -173,7 +173,7 @@ fn scatter(values: &[f64]) -> f64 {
 
 /// The plain simulator in a row.
 struct SimulatedAt<'c> {
-    simulator: &'c Simulator,
+    simulator: &'c SimulatorModel,
     plain: Arc<Prediction>,
     /// Those of the program, with what the simulator gives.
     variables: Vec<f64>,

@@ -14,7 +14,7 @@ use gumption_units::Unit;
 
 /// A simulator in the place of a model's formulas.
 #[derive(Debug)]
-pub struct Simulator {
+pub struct SimulatorModel {
     space: Space,
     pub(crate) learnt: Option<Learnt>,
     /// What the emulator says of the plain simulator at the inputs that were asked for last.
@@ -43,7 +43,7 @@ pub fn simulator_conditions(outputs: impl IntoIterator<Item = Quantity>) -> Vec<
     outputs.into_iter().chain([row]).collect()
 }
 
-impl Simulator {
+impl SimulatorModel {
     /// One that was never run. `space` are its parameters: all inputs of the model in their order, then those
     /// of the candidates that it can do by itself.
     pub fn new(space: Space) -> Self {

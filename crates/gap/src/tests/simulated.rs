@@ -13,7 +13,7 @@ use gumption_units::Unit;
 use crate::simulated::{ParameterSet, SimulatorDiagnosis, diagnose};
 use crate::{
     Candidate, Case, DiagnosisOptions, Effect, HypothesisKind, ModelForm, ObservedOutput,
-    OverridableModel, Prior, Simulator, simulator_conditions,
+    OverridableModel, Prior, SimulatorModel, simulator_conditions,
 };
 
 const ROWS: usize = 250;
@@ -142,7 +142,7 @@ fn pendulum(drag: f64, pivot: f64, listed: &[&str]) -> Case {
             simulation_covariance: None,
         })],
         simulated: 2,
-        simulator: Some(Arc::new(Simulator::new(space))),
+        simulator: Some(Arc::new(SimulatorModel::new(space))),
         history: Vec::new(),
         reachable: Vec::new(),
         candidates,

@@ -13,7 +13,7 @@ use super::cases::{candidate, case, normal, observed, quantity};
 use crate::latent::Role;
 use crate::predict;
 use crate::setup::Setup;
-use crate::{Case, ModelForm, Simulator, simulator_conditions};
+use crate::{Case, ModelForm, SimulatorModel, simulator_conditions};
 
 const ROWS: usize = 12;
 
@@ -53,7 +53,7 @@ fn measured() -> Case {
         parameters: vec![prior("r", rate.into())],
         neutral: vec![(0, 0.0)],
     };
-    case.simulator = Some(Arc::new(Simulator::new(Space::new(inputs, vec![loss]).unwrap())));
+    case.simulator = Some(Arc::new(SimulatorModel::new(Space::new(inputs, vec![loss]).unwrap())));
     assert_eq!(case.check(), Ok(()));
     case
 }
