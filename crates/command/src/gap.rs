@@ -77,7 +77,7 @@ impl Gap {
             None => self.diagnose(&file, at.as_deref(), &stop)?,
             Some((simulated, notes)) => {
                 self.answer.note(notes);
-                let found = self.diagnose_simulated(&file, simulated)?;
+                let found = self.diagnose_simulated(&file, simulated, at)?;
                 // a reason may have lines of a program's standard error
                 let note = found.note.unwrap_or_default();
                 let mut lines = note.lines();
@@ -120,11 +120,12 @@ impl Gap {
         &self,
         file: &CaseFile,
         simulated: SimulatedCase,
+        at: Option<Vec<Row>>,
     ) -> Result<SimulatedDiagnosis, Failure> {
         let options = gap::DiagnosisOptions::new(self.seed.or(file.case.task.settings.seed));
         let bar = progress::share(self.answer.quiet);
         let told = |share: f64| progress::tell(&bar, share);
-        let diagnose = || simulated.diagnose_with(&file.case, options, &told);
+        let diagnose = || simulated.diagnose_with(&file.case, at, options, &told);
         let found = self.threads.install(diagnose);
         bar.finish_and_clear();
         found

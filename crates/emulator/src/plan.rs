@@ -5,12 +5,10 @@ use std::collections::BTreeMap;
 use gumption_engine::distribution::StreamKey;
 use gumption_engine::number::{elementary, largest_first};
 
-use crate::focus::Focus;
 use crate::halton::space_filling_scores;
 use crate::space::Space;
 use crate::state::State;
 use crate::step::{Batch, Ending, Open, Step, TooFewRuns};
-use crate::uniforms::Uniforms;
 use crate::unseen::UnseenError;
 
 /// The error of an emulator at the posterior that is small enough: the norm over all rows, in u. A fifth of
@@ -287,18 +285,8 @@ impl Plan {
 
     /// The mode and draws of a posterior.
     fn batch(&self, state: &State, count: usize) -> Batch {
-        let name = format!("emulator/draws/{:?}", state.effects);
-        let mut random = Uniforms::new(StreamKey::new(self.seed, &name), self.used as u64);
-        let mut weights = state.weights.clone();
-        let mut scores = vec![state.mode.clone()];
-        for _ in 1..count {
-            // each draw once, as a run that was made tells nothing new
-            let Some(place) = random.place(&weights) else { break };
-            weights[place] = 0.0;
-            scores.push(state.draws[place].clone());
-        }
-        let focus = Focus::of(&self.space, &state.effects, &state.draws, &state.weights);
-        Batch { effects: state.effects.clone(), scores, focus: Some(focus) }
+        let key = StreamKey::new(self.seed, &format!("emulator/draws/{:?}", state.effects));
+        state.batch(&self.space, count, key, self.used as u64)
     }
 
     fn ending(&self) -> Ending {

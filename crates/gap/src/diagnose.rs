@@ -2,15 +2,13 @@
 
 use std::sync::atomic::AtomicBool;
 
-use super::composed::Compositions;
-use super::departure;
-use super::departure_prediction;
 use super::diagnosis::{
     DescribedEffect, Diagnosis, DiagnosisNote, EstimatedNoise, Hypothesis, HypothesisKind,
-    MostProbable, NamedQuantity, NextMeasurements, NoiseEstimate, OutputCorrelation, Predicted,
-    RowGap, SerialCorrelation, SettingError, SuspectValue,
+    NamedQuantity, NextMeasurements, NoiseEstimate, OutputCorrelation, RowGap, SerialCorrelation,
+    SettingError, SuspectValue,
 };
 use super::goodness_of_fit::{gap, plus_rows};
+use super::known_gap::KnownGap;
 use super::notes::notes;
 use super::parameters::{equal_tails, parameters, present};
 use super::periodic_residuals::{self, PeriodicResiduals};
@@ -25,15 +23,14 @@ use gumption_engine::model::Quantity;
 use gumption_engine::model::formula::Formula;
 use gumption_engine::number::{elementary, largest_first};
 use gumption_engine::task::Row;
-use gumption_inference::discrepancy::Discrepancy;
 use gumption_inference::latent::Role;
 use gumption_inference::noise::noise_model::NoiseModel;
 use gumption_inference::noise::prior_widths::{self, OtherPriors};
 use gumption_inference::noise::shared_noise::Setting;
 use gumption_inference::posterior::{Effort, Posterior, WeighedHypothesis};
+use gumption_inference::scan;
 use gumption_inference::setup::Setup;
 use gumption_inference::shape::ComposedForm;
-use gumption_inference::{predict, scan};
 
 /// Rows of the data that are handed back, at most; of longer records every so many-th.
 const MOST_ROWS: usize = 2000;
@@ -67,7 +64,7 @@ pub fn diagnose(
     options: DiagnosisOptions,
     progress: &(dyn Fn(f64) + Sync),
 ) -> Result<Diagnosis, OverrideError> {
-    diagnosed(case, at, options, progress, None)
+    diagnosed_at(case, at, options, progress, None)
 }
 
 /// As [`diagnose`], until `stop` is set: then it hands back what is known so far, marked as
@@ -83,18 +80,32 @@ pub fn diagnose_until(
     progress: &(dyn Fn(f64) + Sync),
     stop: &AtomicBool,
 ) -> Result<Diagnosis, OverrideError> {
-    diagnosed(case, at, options, progress, Some(stop))
+    diagnosed_at(case, at, options, progress, Some(stop))
 }
 
-fn diagnosed(
+fn diagnosed_at(
     case: &Case,
     at: Option<&[Row]>,
     options: DiagnosisOptions,
     progress: &(dyn Fn(f64) + Sync),
     stop: Option<&AtomicBool>,
 ) -> Result<Diagnosis, OverrideError> {
-    case.check()?;
     case.check_rows(at.unwrap_or_default())?;
+    let (mut diagnosis, known) = diagnosed(case, options, progress, stop)?;
+    if let Some(at) = at {
+        known.predict(&known.case, at, &mut diagnosis);
+    }
+    Ok(diagnosis)
+}
+
+/// The diagnosis, and what predictions need.
+pub(crate) fn diagnosed(
+    case: &Case,
+    options: DiagnosisOptions,
+    progress: &(dyn Fn(f64) + Sync),
+    stop: Option<&AtomicBool>,
+) -> Result<(Diagnosis, KnownGap), OverrideError> {
+    case.check()?;
     if case.simulator.as_ref().is_some_and(|simulator| simulator.emulator().is_none()) {
         let reason = "the outputs are those of a simulator, which was not run".to_owned();
         return Err(OverrideError::Case { reason });
@@ -159,13 +170,6 @@ fn diagnosed(
     let step = rows.len().div_ceil(MOST_ROWS).max(1);
     let rows = rows.into_iter().step_by(step).collect();
     let hypotheses = hypotheses(&setup, &posterior, probability);
-    let predicted = at.map(|at| {
-        let predicted = prediction(&setup, &discrepancy, &posterior, &compositions, at);
-        let (mut rows, partly_defined) = predicted;
-        enlarge(&mut rows, &weighed_noise.shared(&setup, &variances));
-        (rows, partly_defined)
-    });
-    let (prediction, partly_defined) = predicted.unzip();
     // the test is of the uncertainties as they are stated
     let gap = if setup.data.noise == NoiseModel::default() {
         gap(&setup, verdict.kind)
@@ -185,12 +189,6 @@ fn diagnosed(
     if wide_priors {
         prior_widths::note(&verdict.effects).into_iter().for_each(&mut note);
     }
-    if let Some(count) = partly_defined.filter(|count| *count > 0) {
-        let rows = at.map_or(0, <[Row]>::len);
-        note(fact!("undefined-prediction", count, rows));
-    }
-    let extrapolated = at.and_then(|at| extrapolated(&setup, &posterior, &verdict, at));
-    extrapolated.into_iter().for_each(&mut note);
     if interrupted {
         notes.insert(0, DiagnosisNote { fact: fact!("interrupted") });
     }
@@ -201,7 +199,7 @@ fn diagnosed(
         name: name.to_owned(),
         unit: unit.text().to_owned(),
     };
-    Ok(Diagnosis {
+    let diagnosis = Diagnosis {
         title: case.task.title.clone(),
         source: case.task.source.clone(),
         sim: case.task.statement.clone(),
@@ -223,7 +221,7 @@ fn diagnosed(
         hypotheses,
         shrinkage,
         next,
-        prediction,
+        prediction: None,
         row_count: setup.data.rows(),
         rows,
         noise,
@@ -236,29 +234,17 @@ fn diagnosed(
         notes,
         probability,
         seed,
-    })
-}
-
-/// What is to be said of predictions outside of the conditions of the data: how a departure that
-/// nothing of the list explains goes on the data do not tell, and that an effect does is a statement
-/// of its formula.
-fn extrapolated(
-    setup: &Setup<'_>,
-    posterior: &Posterior,
-    verdict: &MostProbable,
-    at: &[Row],
-) -> Option<Fact> {
-    let outside = departure_prediction::outside(setup, at);
-    let rows = at.len();
-    if outside == 0 {
-        None
-    } else if posterior.departs() > departure::WORTH_TELLING {
-        Some(fact!("extrapolation", outside, rows))
-    } else if verdict.kind == HypothesisKind::Explained {
-        Some(fact!("extrapolation.effects", outside, rows))
-    } else {
-        None
-    }
+    };
+    let shared = weighed_noise.shared(&setup, &variances);
+    let known = KnownGap {
+        case: setup.case.clone(),
+        noise: setup.data.noise.clone(),
+        discrepancy,
+        posterior,
+        compositions,
+        shared,
+    };
+    Ok((diagnosis, known))
 }
 
 /// What is to be said of a sine in what the verdict leaves.
@@ -344,88 +330,6 @@ pub(crate) fn hypotheses(
     });
     largest_first(&mut all, |a| a.probability);
     all
-}
-
-/// A prediction is stated where hypotheses of at least this probability are defined.
-const DEFINED: f64 = 0.5;
-
-/// Hypotheses of less than this probability do not count in predictions.
-const LEAST_SHARE: f64 = 1e-3;
-
-/// Corrected predictions, averaged over the hypotheses by their probabilities: over those that are defined
-/// in a row; not a number where these are less probable than the others. With the number of rows in which
-/// some are not.
-pub(crate) fn prediction(
-    setup: &Setup<'_>,
-    discrepancy: &Discrepancy,
-    posterior: &Posterior,
-    compositions: &Compositions,
-    rows: &[Row],
-) -> (Vec<Predicted>, usize) {
-    let outputs = setup.data.outputs.len();
-    let mut sums = vec![vec![(0.0, 0.0, 0.0); outputs]; rows.len()];
-    let mut total = 0.0;
-    let mut add = |share: f64, normals: &predict::Normals| {
-        total += share;
-        for (sums, values) in sums.iter_mut().zip(normals) {
-            for (sum, (mean, variance)) in sums.iter_mut().zip(values) {
-                // what is not defined there says nothing
-                if !(mean.is_finite() && variance.is_finite()) {
-                    continue;
-                }
-                sum.0 += share * mean;
-                sum.1 += share * (variance + mean * mean);
-                sum.2 += share;
-            }
-        }
-    };
-    for hypothesis in posterior
-        .hypotheses
-        .iter()
-        .filter(|h| h.probability > LEAST_SHARE && h.evidence.has_draws())
-    {
-        let draws = hypothesis.evidence.resampled(shrink::draws_for(rows.len()));
-        let values = predict::values(setup, &hypothesis.effects, &draws, rows);
-        add(hypothesis.probability, &shrink::moments(&values));
-    }
-    if posterior.departs() > LEAST_SHARE {
-        let kinds = &posterior.kinds();
-        let normals =
-            departure_prediction::departure(setup, discrepancy, kinds, compositions, rows);
-        add(posterior.departs(), &normals);
-    }
-    let is_partly = |sums: &&Vec<(f64, f64, f64)>| {
-        sums.iter().any(|(_, _, share)| *share < (1.0 - LEAST_SHARE) * total)
-    };
-    let partly_defined = sums.iter().filter(is_partly).count();
-    let rows = rows
-        .iter()
-        .zip(sums)
-        .map(|(row, sums)| {
-            let linear = predict::linear_variances(setup, row);
-            let outputs = sums.iter().zip(linear).map(|((mean, square, share), linear)| {
-                if *share < DEFINED * total {
-                    return (f64::NAN, f64::NAN);
-                }
-                let mean = mean / share;
-                let variance = (square / share - mean * mean).max(0.0) + linear;
-                (mean, variance.sqrt())
-            });
-            let model = predict::nominal(setup, row);
-            let outputs = outputs.collect();
-            Predicted { conditions: row.conditions.clone(), outputs, model }
-        })
-        .collect();
-    (rows, partly_defined)
-}
-
-/// Adds variances to the predictions of outputs.
-fn enlarge(rows: &mut [Predicted], variances: &[f64]) {
-    for row in rows {
-        for ((_, u), variance) in row.outputs.iter_mut().zip(variances) {
-            *u = elementary::hypot(*u, variance.sqrt());
-        }
-    }
 }
 
 /// What the data say of the noise of every output; `of` are the noise over all hypotheses and the

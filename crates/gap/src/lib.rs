@@ -12,6 +12,7 @@ mod diagnose;
 mod diagnosis;
 mod far_input;
 mod goodness_of_fit;
+mod known_gap;
 mod next;
 mod notes;
 mod parameters;

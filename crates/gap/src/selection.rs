@@ -1,7 +1,8 @@
 //! The verdict alone: what a blind check asks of many data sets.
 
-use super::diagnose::{hypotheses, prediction};
+use super::diagnose::hypotheses;
 use super::diagnosis::{Hypothesis, MostProbable, Predicted};
+use super::known_gap::prediction;
 use super::shrink;
 use super::weighed::Weighed;
 use crate::{Case, OverrideError};

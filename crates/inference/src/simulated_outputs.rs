@@ -3,12 +3,13 @@
 use std::collections::BTreeMap;
 use std::sync::Arc;
 
-use gumption_emulator::{Emulator, Prediction, Space};
+use gumption_emulator::{Emulator, PosteriorEmulator, Prediction, Space};
 use gumption_engine::model::variables;
 use gumption_engine::number::{COLUMN, Column, median};
+use gumption_engine::task::Row;
 
 use crate::latent::Role;
-use crate::simulator::{Learnt, SimulatorModel};
+use crate::simulator::{Elsewhere, Learnt, SimulatorModel};
 use crate::{Candidate, Case};
 
 impl Case {
@@ -34,6 +35,50 @@ impl Case {
             }
         }
         Some(case)
+    }
+
+    /// The same after runs of its simulator in other rows, and these rows with what it gives there at the
+    /// estimates. `emulator` says what the outputs of all of them are, output after output, in u of the data:
+    /// of each output the median. `None` in a case without an emulator, or with another number of values.
+    pub fn elsewhere(
+        &self,
+        emulator: PosteriorEmulator,
+        mut rows: Vec<Row>,
+    ) -> Option<(Self, Vec<Row>)> {
+        let simulator = self.simulator.as_ref()?;
+        simulator.emulator()?;
+        let outputs = self.simulated - 1;
+        if emulator.rows() != outputs * rows.len() {
+            return None;
+        }
+        let units = self.units_elsewhere().into_iter();
+        let units = units.flat_map(|unit| vec![unit; rows.len()]).collect();
+        let mut case = self.clone();
+        case.simulator = Some(Arc::new(simulator.with_elsewhere(emulator, units)));
+        let (first, before) = (self.described(), self.task.rows.len());
+        for (number, row) in rows.iter_mut().enumerate() {
+            row.conditions.resize(first, f64::NAN);
+            row.conditions.resize(first + outputs, f64::NAN);
+            row.conditions.push((before + number) as f64);
+            let values = case.evaluated_simulator(row)?;
+            row.conditions[first..first + outputs].copy_from_slice(&values);
+        }
+        Some((case, rows))
+    }
+
+    /// What the simulator gives in a row at the estimates.
+    fn evaluated_simulator(&self, row: &Row) -> Option<Vec<f64>> {
+        let there = self.simulated_at(&row.estimates())?;
+        let outputs = there.first..there.first + there.values.len();
+        Some(there.variables[outputs].to_vec())
+    }
+
+    /// For each output of a simulator what its values in other rows than those of the data are counted in, in
+    /// its unit: the median of what they are counted in there.
+    pub fn units_elsewhere(&self) -> Vec<f64> {
+        let rows = self.task.rows.len().max(1);
+        let units = self.simulator_units();
+        units.chunks(rows).map(|own| median(own.to_vec()).unwrap_or(1.0)).collect()
     }
 
     /// What the outputs of a simulator are counted in, for each value of a run: the standard uncertainty of the
@@ -187,6 +232,7 @@ struct SimulatedAt<'c> {
 pub(crate) struct SimulatedOutputs<'c> {
     case: &'c Case,
     learnt: &'c Learnt,
+    elsewhere: Option<&'c Elsewhere>,
     space: &'c Space,
     /// Those of the simulator, in ascending order.
     effects: Vec<usize>,
@@ -206,7 +252,8 @@ impl<'c> SimulatedOutputs<'c> {
     /// Of a hypothesis with these roles; `None` in a case without an emulator.
     pub(crate) fn new(case: &'c Case, effects: &[usize], roles: &[Role]) -> Option<Self> {
         let simulator = case.simulator.as_deref()?;
-        let (learnt, space) = (simulator.learnt.as_ref()?, simulator.space());
+        let (learnt, space) = (simulator.learnt.as_deref()?, simulator.space());
+        let elsewhere = simulator.elsewhere.as_ref();
         let own = case.simulator_effects(effects);
         let first = variables(&case.model.inputs, &case.model.conditions);
         // the place among the simulator's parameters of each variable after the conditions
@@ -233,7 +280,7 @@ impl<'c> SimulatedOutputs<'c> {
             }
         };
         let sources = space.unknowns(&own).into_iter().map(source).collect();
-        Some(Self { case, learnt, space, effects: own, sources })
+        Some(Self { case, learnt, elsewhere, space, effects: own, sources })
     }
 
     /// The values of the simulator's unknowns in a lane.
@@ -253,13 +300,20 @@ impl<'c> SimulatedOutputs<'c> {
         self.space.scores(&self.effects, &self.values(roles, scores, lane))
     }
 
-    /// The values of all rows for the first lanes of scores, output after output.
+    /// The values of all rows for the first lanes of scores, output after output; then those of other rows that
+    /// it was run in.
     pub(crate) fn lanes(&self, roles: &[Role], scores: &[Column], lanes: usize) -> Vec<Vec<f64>> {
         let of_lane = |lane: usize| {
             let values = self.values(roles, scores, lane);
             let point = self.space.at_values(&self.effects, &values);
             let mut outputs = self.learnt.emulator.values(&self.effects, &point);
             outputs.iter_mut().zip(&self.learnt.units).for_each(|(value, unit)| *value *= unit);
+            if let Some(elsewhere) = &self.elsewhere {
+                let there = elsewhere.emulator.values(&self.effects, &point);
+                let there = there.unwrap_or_else(|| vec![f64::NAN; elsewhere.units.len()]);
+                outputs
+                    .extend(there.iter().zip(&elsewhere.units).map(|(value, unit)| value * unit));
+            }
             outputs
         };
         (0..lanes).map(of_lane).collect()
@@ -284,17 +338,29 @@ impl<'c> SimulatedOutputs<'c> {
     }
 }
 
-/// The place among the rows of a case of one with these conditions, which a simulator was run at; beyond all
-/// of them where it was not.
+/// The place among the rows of a case, and after them those elsewhere, of one with these conditions, which a
+/// simulator was run at; beyond all of them where it was not.
 pub(crate) fn row_of(case: &Case, conditions: &[f64]) -> usize {
     let row = conditions.last().copied().unwrap_or(f64::NAN);
-    if row >= 0.0 && row < case.task.rows.len() as f64 { row as usize } else { usize::MAX }
+    let rows = case.task.rows.len() + rows_elsewhere(case);
+    if row >= 0.0 && row < rows as f64 { row as usize } else { usize::MAX }
 }
 
-/// For each output of a simulator the place of a row's value among those of a run; beyond all of them where
-/// it was not run at the row.
+/// For each output of a simulator the place of a row's value among those of a run, and after them those
+/// elsewhere; beyond all of them where it was not run at the row.
 fn values_of_row(case: &Case, row: usize) -> Vec<usize> {
-    let rows = case.task.rows.len();
-    let place = |output: usize| if row < rows { output * rows + row } else { usize::MAX };
-    (0..case.simulated - 1).map(place).collect()
+    let (rows, elsewhere) = (case.task.rows.len(), rows_elsewhere(case));
+    let outputs = case.simulated - 1;
+    let place = |output: usize| match row.checked_sub(rows) {
+        None => output * rows + row,
+        Some(row) if row < elsewhere => outputs * rows + output * elsewhere + row,
+        Some(_) => usize::MAX,
+    };
+    (0..outputs).map(place).collect()
+}
+
+/// The number of other rows than those of the data that a simulator was run in.
+fn rows_elsewhere(case: &Case) -> usize {
+    let elsewhere = case.simulator.as_ref().and_then(|simulator| simulator.elsewhere.as_ref());
+    elsewhere.map_or(0, |elsewhere| elsewhere.units.len() / (case.simulated - 1))
 }

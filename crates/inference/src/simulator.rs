@@ -8,7 +8,7 @@
 use std::collections::VecDeque;
 use std::sync::{Arc, Mutex, PoisonError};
 
-use gumption_emulator::{Emulator, Prediction, Space};
+use gumption_emulator::{Coordinate, Emulator, PosteriorEmulator, Prediction, Space};
 use gumption_engine::model::Quantity;
 use gumption_units::Unit;
 
@@ -16,8 +16,9 @@ use gumption_units::Unit;
 #[derive(Debug)]
 pub struct SimulatorModel {
     space: Space,
-    pub(crate) learnt: Option<Learnt>,
-    /// What the emulator says of the plain simulator at the inputs that were asked for last.
+    pub(crate) learnt: Option<Arc<Learnt>>,
+    pub(crate) elsewhere: Option<Elsewhere>,
+    /// What the emulators say of the plain simulator at the inputs that were asked for last.
     plain: Mutex<VecDeque<(Vec<u64>, Arc<Prediction>)>>,
 }
 
@@ -28,6 +29,14 @@ const KEPT: usize = 16;
 #[derive(Debug)]
 pub(crate) struct Learnt {
     pub(crate) emulator: Emulator,
+    /// The size of u by value, in the unit of the simulator's output: output after output.
+    pub(crate) units: Vec<f64>,
+}
+
+/// What a simulator gives in other rows than those of the data.
+#[derive(Clone, Debug)]
+pub(crate) struct Elsewhere {
+    pub(crate) emulator: PosteriorEmulator,
     /// The size of u by value, in the unit of the simulator's output: output after output.
     pub(crate) units: Vec<f64>,
 }
@@ -47,13 +56,19 @@ impl SimulatorModel {
     /// One that was never run. `space` are its parameters: all inputs of the model in their order, then those
     /// of the candidates that it can do by itself.
     pub fn new(space: Space) -> Self {
-        Self { space, learnt: None, plain: Mutex::default() }
+        Self { space, learnt: None, elsewhere: None, plain: Mutex::default() }
     }
 
     /// The same after runs.
     pub(crate) fn with(&self, emulator: Emulator, units: Vec<f64>) -> Self {
-        let learnt = Some(Learnt { emulator, units });
-        Self { space: self.space.clone(), learnt, plain: Mutex::default() }
+        let learnt = Some(Arc::new(Learnt { emulator, units }));
+        Self { learnt, ..Self::new(self.space.clone()) }
+    }
+
+    /// The same after runs in other rows as well.
+    pub(crate) fn with_elsewhere(&self, emulator: PosteriorEmulator, units: Vec<f64>) -> Self {
+        let elsewhere = Some(Elsewhere { emulator, units });
+        Self { learnt: self.learnt.clone(), elsewhere, ..Self::new(self.space.clone()) }
     }
 
     /// What it is run with.
@@ -62,7 +77,7 @@ impl SimulatorModel {
     }
 
     /// The plain simulator at values of all inputs, in the units of its outputs, with derivatives by those that
-    /// vary; `None` before any run.
+    /// vary: in the rows of the data, then in the others. `None` before any run.
     pub(crate) fn plain_at(&self, inputs: &[f64]) -> Option<Arc<Prediction>> {
         let learnt = self.learnt.as_ref()?;
         let key: Vec<u64> = inputs.iter().map(|value| value.to_bits()).collect();
@@ -70,7 +85,15 @@ impl SimulatorModel {
         if let Some((_, plain)) = kept.iter().find(|(known, _)| *known == key) {
             return Some(Arc::clone(plain));
         }
-        let plain = Arc::new(learnt.plain(&self.space, inputs));
+        let mut plain = learnt.plain(&self.space, inputs);
+        if let Some(elsewhere) = &self.elsewhere {
+            let there = elsewhere.plain(&self.space, inputs);
+            plain.values.extend(there.values);
+            for (column, other) in plain.gradient.iter_mut().zip(there.gradient) {
+                column.extend(other);
+            }
+        }
+        let plain = Arc::new(plain);
         if kept.len() == KEPT {
             kept.pop_front();
         }
@@ -80,7 +103,7 @@ impl SimulatorModel {
 
     /// The emulator, once there were runs.
     pub fn emulator(&self) -> Option<&Emulator> {
-        self.learnt.as_ref().map(|learnt| &learnt.emulator)
+        self.learnt.as_deref().map(|learnt| &learnt.emulator)
     }
 }
 
@@ -88,11 +111,34 @@ impl Learnt {
     /// The plain simulator at values of all inputs, in the units of its outputs, with derivatives by those
     /// that vary.
     fn plain(&self, space: &Space, inputs: &[f64]) -> Prediction {
-        let values: Vec<f64> = space.unknowns(&[]).into_iter().map(|place| inputs[place]).collect();
-        let mut there = self.emulator.predict(&[], &space.at_values(&[], &values));
-        for column in there.gradient.iter_mut().chain([&mut there.values]) {
-            column.iter_mut().zip(&self.units).for_each(|(value, unit)| *value *= unit);
-        }
-        there
+        in_units(self.emulator.predict(&[], &plain_point(space, inputs)), &self.units)
     }
+}
+
+impl Elsewhere {
+    /// The same; no numbers where nothing is known of the plain simulator.
+    fn plain(&self, space: &Space, inputs: &[f64]) -> Prediction {
+        let point = plain_point(space, inputs);
+        let there = self.emulator.predict(&[], &point);
+        let unknown = || Prediction {
+            values: vec![f64::NAN; self.units.len()],
+            gradient: vec![vec![f64::NAN; self.units.len()]; point.len()],
+            deviations: Vec::new(),
+        };
+        in_units(there.unwrap_or_else(unknown), &self.units)
+    }
+}
+
+/// The unknown inputs of the plain simulator at values of all inputs.
+fn plain_point(space: &Space, inputs: &[f64]) -> Vec<Coordinate> {
+    let values: Vec<f64> = space.unknowns(&[]).into_iter().map(|place| inputs[place]).collect();
+    space.at_values(&[], &values)
+}
+
+/// Values and gradients that are counted in u, in the units of the outputs.
+fn in_units(mut there: Prediction, units: &[f64]) -> Prediction {
+    for column in there.gradient.iter_mut().chain([&mut there.values]) {
+        column.iter_mut().zip(units).for_each(|(value, unit)| *value *= unit);
+    }
+    there
 }

@@ -1,5 +1,7 @@
 //! What is found of the hypotheses of a case with a simulator while it is being run.
 
+use std::sync::atomic::AtomicBool;
+
 use gumption_emulator::State;
 use gumption_engine::number::{COLUMN, elementary};
 use gumption_engine::parallel;
@@ -24,11 +26,12 @@ pub fn explored(
     hypotheses: Vec<Vec<usize>>,
     known: &[WeighedHypothesis],
     seed: u64,
+    stop: Option<&AtomicBool>,
 ) -> Vec<WeighedHypothesis> {
     let unknowns = |effects: &[usize]| setup.likelihood(effects).unknowns();
     let is_same = |of: &&WeighedHypothesis| of.evidence.unknowns() == unknowns(&of.effects);
     let known: Vec<WeighedHypothesis> = known.iter().filter(is_same).cloned().collect();
-    let exploration = Exploration::new(setup, seed, BETWEEN);
+    let exploration = Exploration::new(setup, seed, Effort { stop, ..BETWEEN });
     let begin = |effects| exploration.begin(effects, &known, None, f64::NEG_INFINITY);
     parallel::map(hypotheses, begin).into_iter().flatten().collect()
 }

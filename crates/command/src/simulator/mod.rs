@@ -3,11 +3,10 @@
 //! `child` is a running program, `process` starts one for each run, `lines` keeps one for many runs, and
 //! [`Program`] shares the runs among threads. [`KeptRuns`] writes each run to a folder as soon as it ends;
 //! `made` reads runs that were made elsewhere, `design` writes which ones to make. `options` are those of
-//! the command line, `case` says what the simulator of a case is run with, and `diagnosis` diagnoses with it.
+//! the command line, and `diagnosis` diagnoses with it.
 
 mod answer;
 mod call;
-mod case;
 mod child;
 mod design;
 mod diagnosis;

@@ -8,8 +8,8 @@ use std::time::Duration;
 use clap::Args;
 use gumption_emulator::{Plan, SimulatorCase};
 use gumption_gap::Case;
+use gumption_gap::simulated::simulator_case;
 
-use super::case::of_case;
 use super::diagnosis::{NoMoreRuns, SimulatedCase};
 use super::{KeptRuns, MadeRuns, Program, design, made};
 use crate::Failure;
@@ -25,7 +25,7 @@ pub(crate) struct SimulatorOptions {
     /// Program that computes the outputs: it is started for each run, reads parameters and conditions
     /// as JSON on standard input, and writes outputs as JSON on standard output. COMMAND is split into
     /// words as in a shell, but started without one
-    #[arg(long, value_name = "COMMAND", conflicts_with = "predict")]
+    #[arg(long, value_name = "COMMAND")]
     simulator: Option<String>,
     /// Start the simulator once for many runs: it reads a line of JSON for each run, and writes a line
     /// for each answer
@@ -63,7 +63,9 @@ impl SimulatorOptions {
         seed: u64,
         file: Destination,
     ) -> Result<(), Failure> {
-        let Some((simulator, given)) = case.simulator.as_ref().zip(of_case(case)) else {
+        let Some((simulator, given)) =
+            case.simulator.as_ref().zip(simulator_case(case, &case.task.rows))
+        else {
             return Err(self.without_simulator());
         };
         let space = simulator.space();
@@ -88,7 +90,7 @@ impl SimulatorOptions {
         threads: &Threads,
         stop: &Arc<AtomicBool>,
     ) -> Result<Option<(SimulatedCase, Vec<String>)>, Failure> {
-        let Some(given) = of_case(case) else {
+        let Some(given) = simulator_case(case, &case.task.rows) else {
             let is_asked = self.simulator.is_some() || self.made.is_some();
             return if is_asked { Err(self.without_simulator()) } else { Ok(None) };
         };
@@ -98,7 +100,8 @@ impl SimulatorOptions {
             // a plan fills the space with a third of its runs, as a design does with all
             let (simulator, budget) = (Box::new(NoMoreRuns), 3 * self.budget());
             let stop = Arc::clone(stop);
-            return Ok(Some((SimulatedCase { runs, simulator, budget, stop }, notes)));
+            let keep = None;
+            return Ok(Some((SimulatedCase { runs, simulator, budget, keep, stop }, notes)));
         }
         let Some(command) = self.simulator.as_deref() else {
             let reason = "the outputs of this case come from a simulator: add --simulator COMMAND to run \
@@ -109,7 +112,9 @@ impl SimulatorOptions {
         let program = self.program(command, threads, stop)?;
         let (runs, notes) = self.runs(given, command)?;
         let (simulator, budget) = (Box::new(program), self.budget());
-        Ok(Some((SimulatedCase { runs, simulator, budget, stop: Arc::clone(stop) }, notes)))
+        let keep = self.keep.clone().map(|folder| (folder, command.to_owned()));
+        let stop = Arc::clone(stop);
+        Ok(Some((SimulatedCase { runs, simulator, budget, keep, stop }, notes)))
     }
 
     fn budget(&self) -> usize {

@@ -2,21 +2,30 @@
 //!
 //! A [`Plan`] says which runs come next and which hypotheses to look at; an emulator learns from the runs, and
 //! the inference takes its word for the simulator's. Once the plan ends the diagnosis is made as of any model.
+//! Predictions in other rows take a few runs there, at draws of the posteriors.
 
+mod case;
+mod elsewhere;
 mod notes;
 mod simulation;
+mod simulator_runs;
 
 use std::sync::Arc;
+use std::sync::atomic::{AtomicBool, Ordering};
 
 pub use gumption_emulator::{
-    Ending, Open, Parameter, Run, RunHash, RunResult, Runs, RunsError, SimulatorEffect, Space,
-    SpaceError,
+    Ending, Open, Parameter, Run, RunHash, RunResult, Runs, RunsError, Simulator, SimulatorCase,
+    SimulatorCondition, SimulatorEffect, SimulatorQuantity, Space, SpaceError,
 };
 use gumption_emulator::{Plan, Step, UnseenError};
 
+pub use self::case::simulator_case;
+pub use self::elsewhere::{PREDICTION_RUNS, Predictions};
 use self::simulation::Simulation;
-use crate::diagnose::{DiagnosisOptions, diagnose as diagnosed};
+use self::simulator_runs::SimulatorRuns;
+use crate::diagnose::{DiagnosisOptions, diagnosed};
 use crate::diagnosis::{Diagnosis, DiagnosisNote};
+use crate::known_gap::KnownGap;
 use crate::{Candidate, Case, OverrideError};
 
 /// What a simulator is called with: all inputs and all parameters of its effects, always.
@@ -40,6 +49,7 @@ pub struct SimulatorDiagnosis {
     pub last: Vec<Run>,
     /// How many runs were used, and what is not known well enough.
     pub ending: Ending,
+    known: Arc<KnownGap>,
 }
 
 /// Makes runs: for each set of parameters all rows of all outputs, output after output in the declared order
@@ -50,7 +60,9 @@ pub type MakeRuns<'m> = dyn FnMut(&[ParameterSet]) -> Vec<RunResult> + 'm;
 const RUN: f64 = 0.8;
 
 /// Diagnoses a case with a simulator, of which `make` makes at most `budget` runs less those among `kept` that
-/// the plan asks for. `progress` is told the share that is done.
+/// the plan asks for. `progress` is told the share that is done. Once `stop` is set no run is asked for, and
+/// `make` may give back fewer than it was asked for: `None` where the last run was not made yet, else what is
+/// known, marked as interrupted.
 ///
 /// # Errors
 /// A case without a simulator, or one that cannot be diagnosed; a budget that is too small; kept runs of other
@@ -62,27 +74,27 @@ pub fn diagnose(
     kept: Runs,
     options: DiagnosisOptions,
     progress: &(dyn Fn(f64) + Sync),
-) -> Result<SimulatorDiagnosis, OverrideError> {
+    stop: &AtomicBool,
+) -> Result<Option<SimulatorDiagnosis>, OverrideError> {
     case.check()?;
     let Some(simulator) = &case.simulator else {
         return Err(refused("the case has no simulator".to_owned()));
     };
-    let space = simulator.space().clone();
-    if kept.names() != space.names() {
-        return Err(refused(format!(
-            "the runs that were kept are of the parameters {}, and the simulator has {}",
-            kept.names().join(", "),
-            space.names().join(", ")
-        )));
-    }
-    let mut plan = Plan::new(space.clone(), budget, options.seed)
+    let runs = SimulatorRuns::new(simulator.space().clone(), case.simulator_units(), kept)?;
+    let mut plan = Plan::new(simulator.space().clone(), budget, options.seed)
         .map_err(|error| refused(error.to_string()))?;
-    let mut simulation = Simulation::new(case, space, kept, options.seed);
+    let mut simulation = Simulation::new(case, runs, options.seed, stop);
+    let is_stopped = || stop.load(Ordering::Relaxed);
     let mut states = Vec::new();
     let ending = loop {
         match plan.next(std::mem::take(&mut states)) {
+            _ if is_stopped() => return Ok(None),
             Step::Run(batches) => {
-                for (batch, made) in simulation.made(batches, make)? {
+                let made = match simulation.runs.made(batches, make) {
+                    Err(_) if is_stopped() => return Ok(None),
+                    made => made?,
+                };
+                for (batch, made) in made {
                     let learnt =
                         simulation.emulator.learn(&batch.effects, &made, batch.focus.clone());
                     plan.learnt(&batch, learnt.unseen.as_ref());
@@ -95,7 +107,7 @@ pub fn diagnose(
     };
     let emulated = simulation.emulated()?;
     let progress = |share: f64| progress(RUN + (1.0 - RUN) * share);
-    let mut diagnosis = diagnosed(&emulated, None, options, &progress)?;
+    let (mut diagnosis, known) = diagnosed(&emulated, options, &progress, Some(stop))?;
     without_simulated(&mut diagnosis, case.described());
     diagnosis.notes.extend(notes::open(case, &ending));
     let own = &diagnosis.most_probable.effects;
@@ -103,18 +115,19 @@ pub fn diagnose(
     let named: Vec<usize> =
         case.candidates.iter().filter(is_named).filter_map(|of| of.simulator).collect();
     let unseen = simulation.emulator.unseen(&named).map(UnseenError::median);
-    let facts = std::iter::once(notes::runs(ending.runs, unseen)).chain(simulation.failed_note());
+    let facts =
+        std::iter::once(notes::runs(ending.runs, unseen)).chain(simulation.runs.failed_note());
     diagnosis.notes.extend(facts.map(|fact| DiagnosisNote { fact }));
-    let Simulation { runs, last, .. } = simulation;
-    Ok(SimulatorDiagnosis { diagnosis, runs, last, ending })
+    let SimulatorRuns { runs, last, .. } = simulation.runs;
+    Ok(Some(SimulatorDiagnosis { diagnosis, runs, last, ending, known: Arc::new(known) }))
 }
 
 /// Takes out the conditions that hold what the simulator gives.
 fn without_simulated(diagnosis: &mut Diagnosis, described: usize) {
     diagnosis.conditions.truncate(described);
-    for row in &mut diagnosis.rows {
-        row.conditions.truncate(described);
-    }
+    let rows = diagnosis.rows.iter_mut().map(|row| &mut row.conditions);
+    let predicted = diagnosis.prediction.iter_mut().flatten().map(|row| &mut row.conditions);
+    rows.chain(predicted).for_each(|conditions| conditions.truncate(described));
 }
 
 fn refused(reason: String) -> OverrideError {

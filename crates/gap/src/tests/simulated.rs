@@ -1,6 +1,7 @@
 //! A pendulum that loses energy, of which only a program is there: its gap from runs.
 
 use std::sync::Arc;
+use std::sync::atomic::AtomicBool;
 
 use gumption_emulator::{Parameter, Runs, SimulatorEffect, Space};
 use gumption_engine::distribution::{Distribution, LogUniform, Normal, Rectangular, StreamKey};
@@ -21,26 +22,33 @@ const ROWS: usize = 250;
 /// Standard uncertainty of an angle, in rad.
 const U: f64 = 3e-4;
 
+/// The length in m and the release angle in rad of the pendulum that was measured.
+const LENGTH: f64 = 0.6195;
+const RELEASE: f64 = 0.3995;
+
 /// The budget of runs.
 const BUDGET: usize = 150;
+
+/// A diagnosis that nobody stops.
+static NEVER: AtomicBool = AtomicBool::new(false);
 
 fn quantity(name: &str, unit: &str) -> Quantity {
     Quantity { name: name.to_owned(), unit: Unit::parse(unit).unwrap(), about: String::new() }
 }
 
-/// Angles of a pendulum over 25 s in mrad: length in m, release angle in rad, quadratic air drag and dry
+/// Angles of a pendulum every 0.1 s in mrad: length in m, release angle in rad, quadratic air drag and dry
 /// friction of the pivot as a share of the weight's largest torque. Runge and Kutta's method of fourth order.
-fn swing(length: f64, release: f64, drag: f64, pivot: f64) -> Vec<f64> {
+fn swing(rows: usize, [length, release, drag, pivot]: [f64; 4]) -> Vec<f64> {
     let gl = 9.80665 / length;
     let slope = |[angle, rate]: [f64; 2]| {
         let friction = drag * rate * rate.abs() + pivot * gl * (rate / 0.05).tanh();
         [rate, -gl * angle.sin() - friction]
     };
     let moved = |at: [f64; 2], by: [f64; 2], h: f64| [at[0] + h * by[0], at[1] + h * by[1]];
-    let h = 25.0 / ROWS as f64 / 2.0;
+    let h = 0.05;
     let mut at = [release, 0.0];
-    let mut angles = Vec::with_capacity(ROWS);
-    for _ in 0..ROWS {
+    let mut angles = Vec::with_capacity(rows);
+    for _ in 0..rows {
         for _ in 0..2 {
             let a = slope(at);
             let b = slope(moved(at, a, h / 2.0));
@@ -61,7 +69,7 @@ fn run(set: &ParameterSet) -> Result<Vec<f64>, String> {
         let place = set.names.iter().position(|known| known == name);
         place.map_or(0.0, |place| set.values[place])
     };
-    Ok(swing(value("length"), value("release"), value("drag"), value("pivot")))
+    Ok(swing(ROWS, ["length", "release", "drag", "pivot"].map(value)))
 }
 
 /// The case of a pendulum of 0.6195 m with some drag and friction, and these of both on the list.
@@ -119,7 +127,7 @@ fn pendulum(drag: f64, pivot: f64, listed: &[&str]) -> Case {
     let mut uniforms = [0.0; 256];
     StreamKey::new(1, "noise").block(0).uniform(&mut uniforms);
     let noise = uniforms.into_iter().map(normal::quantile);
-    let values: Vec<f64> = swing(0.6195, 0.3995, drag, pivot)
+    let values: Vec<f64> = swing(ROWS, [LENGTH, RELEASE, drag, pivot])
         .into_iter()
         .zip(noise)
         .map(|(angle, noise)| 1e-3 * angle + U * noise)
@@ -160,7 +168,7 @@ fn diagnosed(case: &Case, kept: Runs) -> (SimulatorDiagnosis, usize) {
         sets.iter().map(run).collect()
     };
     let options = DiagnosisOptions::new(1);
-    let of = diagnose(case, &mut make, BUDGET, kept, options, &|_| {}).unwrap();
+    let of = diagnose(case, &mut make, BUDGET, kept, options, &|_| {}, &NEVER).unwrap().unwrap();
     (of, count)
 }
 
@@ -230,12 +238,54 @@ fn runs_that_fail_are_told_with_their_parameters() {
     let case = pendulum(0.0, 3e-4, &BOTH);
     let mut make = |sets: &[ParameterSet]| vec![Err("no licence".to_owned()); sets.len()];
     let options = DiagnosisOptions::new(1);
-    let found = diagnose(&case, &mut make, BUDGET, no_runs(&case), options, &|_| {});
+    let found = diagnose(&case, &mut make, BUDGET, no_runs(&case), options, &|_| {}, &NEVER);
     let said = found.unwrap_err().to_string();
     assert!(said.contains("no licence") && said.contains("length = 0.6"), "{said}");
     let mut few = |_: &[ParameterSet]| Vec::new();
-    let found = diagnose(&case, &mut few, BUDGET, no_runs(&case), options, &|_| {});
+    let found = diagnose(&case, &mut few, BUDGET, no_runs(&case), options, &|_| {}, &NEVER);
     assert!(found.unwrap_err().to_string().contains("0 came back"));
-    let found = diagnose(&case, &mut few, 5, no_runs(&case), options, &|_| {});
+    let found = diagnose(&case, &mut few, 5, no_runs(&case), options, &|_| {}, &NEVER);
     assert!(found.unwrap_err().to_string().contains("times at least"));
+}
+
+/// A diagnosis that is stopped before the last run has no result.
+#[test]
+fn a_stop_while_runs_are_made_ends_the_diagnosis() {
+    let case = pendulum(0.0, 3e-4, &BOTH);
+    let stop = AtomicBool::new(false);
+    let mut make = |_: &[ParameterSet]| {
+        stop.store(true, std::sync::atomic::Ordering::Relaxed);
+        Vec::new()
+    };
+    let options = DiagnosisOptions::new(1);
+    let found = diagnose(&case, &mut make, BUDGET, no_runs(&case), options, &|_| {}, &stop);
+    assert!(found.unwrap().is_none());
+}
+
+/// The pendulum with dry friction in the 25 s after those of the data: the angles are known better than one of
+/// them is measured.
+#[test]
+fn a_corrected_pendulum_is_predicted_where_it_was_not_measured() {
+    let case = pendulum(0.0, 3e-4, &BOTH);
+    let (found, _) = diagnosed(&case, no_runs(&case));
+    let row = |of: &Row| Row { conditions: vec![of.conditions[0] + 25.0], ..of.clone() };
+    let rows: Vec<Row> = case.task.rows.iter().map(row).collect();
+    let there = |parameters| swing(2 * ROWS, parameters).split_off(ROWS);
+    let mut count = 0;
+    let mut make = |sets: &[ParameterSet]| {
+        count += sets.len();
+        sets.iter().map(|set| Ok(there([0, 1, 2, 3].map(|place| set.values[place])))).collect()
+    };
+    let predicted = found.predict(rows, &mut make, 30, no_runs(&case)).unwrap();
+    assert!(count <= 45, "{count}");
+    assert_eq!(predicted.runs.made().len(), count);
+    let truth = there([LENGTH, RELEASE, 0.0, 3e-4]);
+    let rows = predicted.diagnosis.prediction.unwrap();
+    assert_eq!((rows.len(), rows[0].conditions.len()), (ROWS, 1));
+    for (row, truth) in rows.iter().zip(&truth) {
+        let (value, u) = row.outputs[0];
+        let error = (value - 1e-3 * truth) / u;
+        // all rows depart together, by the errors of few parameters: four standard deviations
+        assert!(error.abs() < 4.0 && u > 0.0 && u < U, "{error} {u}");
+    }
 }

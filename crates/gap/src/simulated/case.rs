@@ -2,12 +2,14 @@
 
 use gumption_emulator::{SimulatorCase, SimulatorCondition, SimulatorQuantity};
 use gumption_engine::model::Quantity;
-use gumption_gap::Case;
+use gumption_engine::task::Row;
 
-/// The parameters, conditions and outputs of a case's simulator; `None` of a case without one.
-pub(super) fn of_case(case: &Case) -> Option<SimulatorCase> {
+use crate::Case;
+
+/// The parameters, conditions and outputs of a case's simulator in some rows, such as those of the data
+/// (`case.task.rows`); `None` of a case without one.
+pub fn simulator_case(case: &Case, rows: &[Row]) -> Option<SimulatorCase> {
     let simulator = case.simulator.as_ref()?;
-    let rows = &case.task.rows;
     let conditions = case.model.conditions.iter().enumerate();
     let (given, returned) = (conditions.clone(), conditions);
     let mut parameters: Vec<SimulatorQuantity> =
