@@ -264,6 +264,7 @@ pub use application::Application;
 /// The command line as a function ([`Application::call`]): what it takes and gives.
 #[cfg(feature = "cli")]
 pub mod command {
+    pub use gumption_command::simulator::{KeptRuns, Program, SimulatedCase, prediction_folder};
     pub use gumption_command::{
         Answered, Exit, Failure, GivenFile, MergedRun, Mistake, PartedMerging, PartedRun,
         PartsFolder, PassOfRun,

@@ -1,18 +1,20 @@
 //! `gumption gap`
 
 use std::path::PathBuf;
+use std::sync::Arc;
 use std::sync::atomic::AtomicBool;
 
 use clap::{Args, ValueEnum};
 
 use super::exit::say_line;
 use super::options::{AnswerOptions, Case, CoverageOption, Interactive, Seed, Threads};
-use super::simulator::{SimulatedCase, SimulatedDiagnosis, SimulatorOptions};
+use super::simulator::{SimulatedCase, SimulatorOptions};
 use super::{CommandLine, Exit, Failure, output, progress, run, signals};
 use gumption_engine::task::Row;
 use gumption_files::CaseFile;
 use gumption_gap as gap;
 use gumption_gap::Diagnosis;
+use gumption_gap::simulated::SimulatorDiagnosis;
 use gumption_report as report;
 use gumption_report::Provenance;
 
@@ -75,17 +77,15 @@ impl Gap {
         let simulated = self.simulator.simulated(&file.case, &self.threads, &stop)?;
         let diagnosis = match simulated {
             None => self.diagnose(&file, at.as_deref(), &stop)?,
-            Some((simulated, notes)) => {
+            Some((mut simulated, notes)) => {
                 self.answer.note(notes);
-                let found = self.diagnose_simulated(&file, simulated, at)?;
-                // a reason may have lines of a program's standard error
-                let note = found.note.unwrap_or_default();
-                let mut lines = note.lines();
-                self.answer.note(lines.next());
-                lines
-                    .filter(|_| !self.answer.quiet)
-                    .for_each(|line| say_line(&format!("    {line}")));
-                let Some(diagnosis) = found.diagnosis else { return Ok(Exit::Interrupted) };
+                let found = self.diagnose_simulated(&file, &mut simulated)?;
+                let found = match (found, at) {
+                    (Some(found), Some(at)) => self.predict_simulated(&file, &found, at, &stop)?,
+                    (found, _) => found.map(|found| found.diagnosis),
+                };
+                self.say_runs(&simulated, found.is_some());
+                let Some(diagnosis) = found else { return Ok(Exit::Interrupted) };
                 diagnosis
             }
         };
@@ -116,19 +116,41 @@ impl Gap {
         Ok(run::provenance(&file.source.text, &files))
     }
 
+    /// Says which runs failed, or how many there were before an interruption.
+    fn say_runs(&self, simulated: &SimulatedCase, is_done: bool) {
+        let note = if is_done { simulated.failed() } else { Some(simulated.interrupted()) };
+        // a reason may have lines of a program's standard error
+        let note = note.unwrap_or_default();
+        let mut lines = note.lines();
+        self.answer.note(lines.next());
+        lines.filter(|_| !self.answer.quiet).for_each(|line| say_line(&format!("    {line}")));
+    }
+
     fn diagnose_simulated(
         &self,
         file: &CaseFile,
-        simulated: SimulatedCase,
-        at: Option<Vec<Row>>,
-    ) -> Result<SimulatedDiagnosis, Failure> {
+        simulated: &mut SimulatedCase,
+    ) -> Result<Option<SimulatorDiagnosis>, Failure> {
         let options = gap::DiagnosisOptions::new(self.seed.or(file.case.task.settings.seed));
         let bar = progress::share(self.answer.quiet);
         let told = |share: f64| progress::tell(&bar, share);
-        let diagnose = || simulated.diagnose_with(&file.case, at, options, &told);
-        let found = self.threads.install(diagnose);
+        let found = self.threads.install(|| simulated.diagnose(&file.case, options, &told));
         bar.finish_and_clear();
         found
+    }
+
+    fn predict_simulated(
+        &self,
+        file: &CaseFile,
+        found: &SimulatorDiagnosis,
+        at: Vec<Row>,
+        stop: &Arc<AtomicBool>,
+    ) -> Result<Option<Diagnosis>, Failure> {
+        let elsewhere = self.simulator.elsewhere(&file.case, &at, &self.threads, stop)?;
+        match elsewhere {
+            Some(mut elsewhere) => self.threads.install(|| elsewhere.predict(found, at)),
+            None => Ok(Some(found.diagnosis.clone())),
+        }
     }
 
     fn diagnose(

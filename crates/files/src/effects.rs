@@ -168,7 +168,10 @@ impl EffectsReader<'_> {
         }
         let neutral = match &overrides {
             Some(_) => None,
-            None => Some(neutral::read(&object, &effect.parameters, diagnostic)?),
+            None => {
+                let parameters: Vec<_> = effect.parameters.iter().zip(priors(&inputs)).collect();
+                Some(neutral::read(&object, &parameters, diagnostic)?)
+            }
         };
         if let (Err(circular), Some(overrides)) = (self.sim?.program(&[&effect]), &overrides) {
             let reason = format!("overrides quantities that need each other: {}", circular);

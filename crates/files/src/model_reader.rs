@@ -319,7 +319,8 @@ impl<'a> ModelReader<'a> {
         let at = match self.options.at {
             Some(path) => {
                 let name = path.display().to_string();
-                Some(table::read(log, Folder::of_the_user(), &name, &(0..0), Some(&named))?.0)
+                let folder = Folder::of_the_user().holding(self.options.files.held);
+                Some(table::read(log, folder, &name, &(0..0), Some(&named))?.0)
             }
             None => None,
         };

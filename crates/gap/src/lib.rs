@@ -42,6 +42,7 @@ pub use diagnosis::{
     SettingError, Shrinkage, Shrunk, StrengthPart, SuspectValue, UncertaintyFactor, UnlistedEffect,
     ValueGap,
 };
+pub use gumption_inference::noise::prior_widths::is_whole_turn;
 pub use gumption_inference::scan::GapRegion;
 pub use gumption_inference::shape::ComposedForm;
 pub use gumption_inference::{

@@ -6,6 +6,7 @@ mod arrow;
 mod budgets;
 mod call;
 mod columns;
+mod diagnosis;
 mod draws;
 mod errors;
 mod function;
@@ -28,6 +29,8 @@ fn application() -> &'static gumption::Application {
 fn _gumption(module: &Bound<'_, PyModule>) -> PyResult<()> {
     module.add("__version__", env!("CARGO_PKG_VERSION"))?;
     module.add("ModelError", module.py().get_type::<errors::ModelError>())?;
+    module.add_class::<diagnosis::SimulatedGap>()?;
+    module.add_class::<diagnosis::SimulatorGap>()?;
     module.add_class::<model::Model>()?;
     module.add_class::<parts::Parts>()?;
     module.add_class::<run::Run>()?;

@@ -2,7 +2,7 @@
 
 use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::sync::atomic::{AtomicBool, AtomicU64, Ordering};
-use std::sync::mpsc::{RecvTimeoutError, sync_channel};
+use std::sync::mpsc::{RecvTimeoutError, channel, sync_channel};
 use std::sync::{Arc, Mutex, PoisonError};
 use std::time::Duration;
 
@@ -119,6 +119,69 @@ pub(crate) fn supervised_within<T: Send>(
             }
         }
     })
+}
+
+/// What work on threads of its own asks of the thread that waits for it.
+enum Message<A, T> {
+    Asked(A),
+    Done(std::thread::Result<T>),
+}
+
+/// The same for work that asks for something while it goes on: `answer` is called with it in the thread that
+/// calls this, where a user's function expects to be called. What `answer` raises stops the work and is raised.
+///
+/// # Errors
+/// What a handler of signals raises, `progress` or `answer` does; a panic of the work.
+pub(crate) fn supervised_asking<A: Send + 'static, T: Send + 'static>(
+    py: Python<'_>,
+    progress: Option<&Bound<'_, PyAny>>,
+    answer: &mut dyn FnMut(A) -> PyResult<()>,
+    work: impl FnOnce(&Watch, Box<dyn Fn(A) -> bool + Send>) -> T + Send + 'static,
+) -> PyResult<T> {
+    let watch = Arc::new(Watch::default());
+    let (give, take) = channel();
+    let given = Arc::clone(&watch);
+    let asks = give.clone();
+    let ask = Box::new(move |asked| asks.send(Message::Asked(asked)).is_ok());
+    // a thread of its own, as one of the pool may be who waits
+    let pool = if rayon::current_thread_index().is_some() { None } else { Some(pool()?) };
+    let worker = std::thread::Builder::new().name("gumption-diagnosis".to_owned());
+    let started = worker.spawn(move || {
+        let work = AssertUnwindSafe(|| match pool {
+            Some(pool) => pool.install(|| work(&given, ask)),
+            None => work(&given, ask),
+        });
+        let _ = give.send(Message::Done(catch_unwind(work)));
+    });
+    started.map_err(|error| PyOSError::new_err(format!("cannot start a thread: {error}")))?;
+    let take = Mutex::new(take);
+    let wait = |time: Duration| {
+        let take = take.lock().unwrap_or_else(PoisonError::into_inner);
+        take.recv_timeout(time)
+    };
+    let stopped = |raised: PyErr| {
+        watch.stop.store(true, Ordering::Relaxed);
+        let _ = py.detach(|| wait(PATIENCE));
+        Err(raised)
+    };
+    loop {
+        let looked = match py.detach(|| wait(LOOK)) {
+            Ok(Message::Asked(asked)) => answer(asked).and_then(|()| tell(progress, &watch)),
+            Ok(Message::Done(Ok(found))) => {
+                tell(progress, &watch)?;
+                return Ok(found);
+            }
+            Ok(Message::Done(Err(_))) | Err(RecvTimeoutError::Disconnected) => {
+                return Err(PyRuntimeError::new_err("an internal error of gumption"));
+            }
+            Err(RecvTimeoutError::Timeout) => {
+                py.check_signals().and_then(|()| tell(progress, &watch))
+            }
+        };
+        if let Err(raised) = looked {
+            return stopped(raised);
+        }
+    }
 }
 
 fn tell(progress: Option<&Bound<'_, PyAny>>, watch: &Watch) -> PyResult<()> {

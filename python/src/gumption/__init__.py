@@ -19,6 +19,7 @@ _HOME = {
         "Answer", "Certificate", "assumptions", "call", "certificate", "check", "compare", "diff",
         "gap", "gap_check", "observe", "verify",
     ],
+    "_diagnose": ["Diagnosis", "Effect", "Runs", "diagnose", "effect", "runs"],
     "_shapes": [
         "Input", "arcsine", "beta", "components", "constant", "curvilinear_trapezoid", "exponential",
         "gamma", "known", "log_uniform", "lognormal", "normal", "poisson_count", "readings",

@@ -13,6 +13,14 @@ from gumption._commands import (
     observe as observe,
     verify as verify,
 )
+from gumption._diagnose import (
+    Diagnosis as Diagnosis,
+    Effect as Effect,
+    Runs as Runs,
+    diagnose as diagnose,
+    effect as effect,
+    runs as runs,
+)
 from gumption._gumption import ModelError as ModelError
 from gumption._measurement import (
     Measurement as Measurement,
@@ -62,6 +70,8 @@ __all__ = [
     "Answer",
     "Budget",
     "Certificate",
+    "Diagnosis",
+    "Effect",
     "Gum",
     "Input",
     "Measurement",
@@ -72,6 +82,7 @@ __all__ = [
     "Output",
     "OutputBudgets",
     "Result",
+    "Runs",
     "SampleTable",
     "Samples",
     "arcsine",
@@ -85,7 +96,9 @@ __all__ = [
     "components",
     "constant",
     "curvilinear_trapezoid",
+    "diagnose",
     "diff",
+    "effect",
     "exponential",
     "from_dict",
     "from_json",
@@ -104,6 +117,7 @@ __all__ = [
     "readings",
     "rectangular",
     "result",
+    "runs",
     "samples",
     "student_t",
     "trapezoidal",

@@ -12,6 +12,8 @@ __all__ = [
     "ModelError",
     "Parts",
     "Run",
+    "SimulatedGap",
+    "SimulatorGap",
     "__version__",
     "arrow_array",
     "arrow_stream",
@@ -43,6 +45,44 @@ class ModelError(ValueError):
     """
 
     errors: list[dict[str, Any]]
+
+@final
+class SimulatedGap:
+    def __new__(cls, text: str, held: list[tuple[str, bytes]]) -> SimulatedGap: ...
+    @property
+    def parameters(self) -> list[str]: ...
+    @property
+    def outputs(self) -> list[str]: ...
+    @property
+    def conditions(self) -> dict[str, npt.NDArray[np.float64]]: ...
+    @property
+    def notes(self) -> list[str]: ...
+    def diagnose(
+        self,
+        simulate: Callable[[npt.NDArray[np.float64]], Iterable[tuple[int, Any]]] | None,
+        runs: int,
+        seed: int | None = None,
+        folder: str | None = None,
+        name: str = "",
+        made: tuple[npt.NDArray[np.float64], npt.NDArray[np.float64]] | None = None,
+        progress: Callable[[int], object] | None = None,
+    ) -> SimulatorGap: ...
+
+@final
+class SimulatorGap:
+    @property
+    def notes(self) -> list[str]: ...
+    def json(self) -> str: ...
+    def to(self, format: str) -> bytes: ...
+    def runs(self) -> tuple[npt.NDArray[np.float64], list[Any]]: ...
+    def predict(
+        self,
+        simulate: Callable[[dict[str, npt.NDArray[np.float64]]], Any],
+        table: bytes,
+        runs: int | None = None,
+        folder: str | None = None,
+        name: str = "",
+    ) -> tuple[dict[str, tuple[npt.NDArray[np.float64], npt.NDArray[np.float64]]], list[str]]: ...
 
 @final
 class Model:

@@ -78,3 +78,35 @@ def _sweep(panel: Any, result: Result, output: Any) -> None:
     panel.set_xlabel(f"{names[0]} in {units[names[0]]}" if len(names) == 1 else "row")
     panel.set_ylabel(f"{output.name} in {output.unit}")
     panel.legend(fontsize="small")
+
+
+def plot_gap(answer: dict[str, Any]) -> Any:
+    """The figure of a diagnosis: residuals over their standard uncertainty before and after, by output, and
+    the probabilities of the effects."""
+    from matplotlib.figure import Figure
+
+    rows = answer["rows"]
+    outputs = list(rows[0]["outputs"]) if rows else []
+    names = list(rows[0]["conditions"]) if rows else []
+    figure = Figure(figsize=(6.4, 2.6 * (len(outputs) + 1)), layout="constrained")
+    *panels, bars = figure.subplots(len(outputs) + 1, 1, squeeze=False)[:, 0]
+    # over the first condition where it runs along with the rows, as time does; else over the rows
+    x = np.array([row["conditions"][names[0]] for row in rows]) if names else np.arange(0)
+    is_along = len(x) > 1 and bool(np.all(np.diff(x) > 0))
+    if not is_along:
+        x = np.arange(1, len(rows) + 1)
+    for panel, output in zip(panels, outputs):
+        found = [row["outputs"][output] for row in rows]
+        for part, label, style in (("before", "plain sim", "x"), ("after", "corrected sim", ".")):
+            z = [row[part] / row["standard_uncertainty"] for row in found]
+            panel.plot(x, z, style, markersize=4, label=label)
+        panel.axhspan(-2, 2, color="tab:gray", alpha=0.2, linewidth=0)
+        panel.set_xlabel(names[0] if is_along else "row")
+        panel.set_ylabel(f"residual of {output} / u")
+        panel.legend(fontsize="small")
+    present = answer["present"]
+    bars.barh(list(present), [effect["probability"] for effect in present.values()])
+    bars.set_xlim(0, 1)
+    bars.invert_yaxis()
+    bars.set_xlabel("probability that the effect is there")
+    return figure

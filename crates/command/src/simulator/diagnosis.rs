@@ -1,94 +1,89 @@
 //! The diagnosis of a case whose outputs come from a simulator.
 
+use std::fmt;
 use std::ops::ControlFlow;
-use std::path::PathBuf;
 use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
 
 use gumption_emulator::{RunResult, Simulator, SimulatorCase};
 use gumption_engine::task::Row;
-use gumption_gap::simulated::{
-    MakeRuns, PREDICTION_RUNS, ParameterSet, SimulatorDiagnosis, diagnose, simulator_case,
-};
+use gumption_gap::simulated::{MakeRuns, ParameterSet, SimulatorDiagnosis, diagnose};
 use gumption_gap::{Case, Diagnosis, DiagnosisOptions, OverrideError};
 
 use super::KeptRuns;
 use crate::Failure;
 
-/// The simulator of a case, with the runs that were made before.
-pub(crate) struct SimulatedCase {
-    pub(super) runs: KeptRuns,
-    pub(super) simulator: Box<dyn Simulator + Send>,
-    pub(super) budget: usize,
-    /// The folder in which runs are kept, and the command that makes them.
-    pub(super) keep: Option<(PathBuf, String)>,
-    pub(super) stop: Arc<AtomicBool>,
+/// A simulator with the runs of it that were made: what [`gumption_gap::simulated`] asks for is made where it
+/// was not before, and kept.
+pub struct SimulatedCase {
+    runs: KeptRuns,
+    simulator: Box<dyn Simulator + Send>,
+    budget: usize,
+    stop: Arc<AtomicBool>,
 }
 
-/// What came of a diagnosis with a simulator.
-pub(crate) struct SimulatedDiagnosis {
-    /// `None` if it was interrupted while runs were made.
-    pub(crate) diagnosis: Option<Diagnosis>,
-    /// The runs that failed, or those before the interruption.
-    pub(crate) note: Option<String>,
+impl fmt::Debug for SimulatedCase {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.debug_struct("SimulatedCase").field("runs", &self.runs).finish_non_exhaustive()
+    }
 }
 
 impl SimulatedCase {
-    /// Diagnoses the case, and predicts in the rows `at`; the runs that this asks for and that were not made
-    /// are made now, and kept.
+    /// So many runs at most are made by the simulator beside those that there are. Once `stop` is set no run is
+    /// begun.
+    pub fn new(
+        runs: KeptRuns,
+        simulator: Box<dyn Simulator + Send>,
+        budget: usize,
+        stop: Arc<AtomicBool>,
+    ) -> Self {
+        Self { runs, simulator, budget, stop }
+    }
+
+    /// The runs.
+    pub fn runs(&self) -> &KeptRuns {
+        &self.runs
+    }
+
+    /// Diagnoses a case; `None` if it was stopped while runs were made.
     ///
     /// # Errors
     /// The case cannot be diagnosed, or a run cannot be kept.
-    pub(crate) fn diagnose_with(
-        mut self,
+    pub fn diagnose(
+        &mut self,
         case: &Case,
-        at: Option<Vec<Row>>,
         options: DiagnosisOptions,
         progress: &(dyn Fn(f64) + Sync),
-    ) -> Result<SimulatedDiagnosis, Failure> {
+    ) -> Result<Option<SimulatorDiagnosis>, Failure> {
         let (budget, kept) = (self.budget, self.runs.runs().clone());
         let (simulator, stop) = (&*self.simulator, &*self.stop);
-        let found = with_runs(&mut self.runs, simulator, stop, |make| {
+        with_runs(&mut self.runs, simulator, stop, |make| {
             diagnose(case, make, budget, kept, options, progress, stop)
-        })?;
-        let failed = self.failed();
-        let (Some(found), note) = (found, failed) else {
-            return Ok(SimulatedDiagnosis { diagnosis: None, note: Some(self.interrupted()) });
-        };
-        let diagnosis = match at {
-            Some(at) if !found.diagnosis.interrupted => self.predicted(case, &found, at)?,
-            _ => Some(found.diagnosis),
-        };
-        Ok(SimulatedDiagnosis { diagnosis, note })
+        })
     }
 
-    /// The diagnosis with its predictions; `None` if it was interrupted.
-    fn predicted(
-        &self,
-        case: &Case,
+    /// A diagnosis with its predictions in other rows, whose runs are these; `None` if it was stopped.
+    ///
+    /// # Errors
+    /// Rows that are none of the case, no run of a hypothesis, or one that cannot be kept.
+    pub fn predict(
+        &mut self,
         found: &SimulatorDiagnosis,
         at: Vec<Row>,
     ) -> Result<Option<Diagnosis>, Failure> {
-        let Some(given) = simulator_case(case, &at) else { return Ok(None) };
-        let mut runs = match &self.keep {
-            Some((folder, command)) => {
-                let folder = folder.join(format!("predict-{}", &given.hash()[..12]));
-                KeptRuns::open(&folder, given, command)?.0
-            }
-            None => KeptRuns::in_memory(given),
-        };
-        let kept = runs.runs().clone();
-        let predicted = with_runs(&mut runs, &*self.simulator, &self.stop, |make| {
-            found.predict(at, make, PREDICTION_RUNS, kept)
+        let (budget, kept) = (self.budget, self.runs.runs().clone());
+        let (simulator, stop) = (&*self.simulator, &*self.stop);
+        let predicted = with_runs(&mut self.runs, simulator, stop, |make| {
+            found.predict(at, make, budget, kept)
         });
         match predicted {
-            Err(_) if self.stop.load(Ordering::Relaxed) => Ok(None),
+            Err(_) if stop.load(Ordering::Relaxed) => Ok(None),
             predicted => Ok(Some(predicted?.diagnosis)),
         }
     }
 
     /// The sentence about an interruption while runs were made.
-    fn interrupted(&self) -> String {
+    pub(crate) fn interrupted(&self) -> String {
         let count = self.runs.runs().made().len();
         let how =
             if self.runs.are_kept() { ", which are kept; the same command continues" } else { "" };
@@ -96,7 +91,7 @@ impl SimulatedCase {
     }
 
     /// The sentence about runs that failed, with the reason of the first one.
-    fn failed(&self) -> Option<String> {
+    pub(crate) fn failed(&self) -> Option<String> {
         let made = self.runs.runs().made();
         let mut reasons = made.iter().filter_map(|run| run.result.as_ref().err());
         let first = reasons.next()?;

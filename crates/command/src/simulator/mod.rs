@@ -22,8 +22,9 @@ mod words;
 
 pub(super) use child::end_all;
 pub use design::design;
-pub(super) use diagnosis::{SimulatedCase, SimulatedDiagnosis};
+pub use diagnosis::SimulatedCase;
 pub use kept::KeptRuns;
 pub use made::{MadeRuns, made};
 pub(super) use options::SimulatorOptions;
+pub use options::prediction_folder;
 pub use program::Program;

@@ -7,11 +7,12 @@ use std::time::Duration;
 
 use clap::Args;
 use gumption_emulator::{Plan, SimulatorCase};
+use gumption_engine::task::Row;
 use gumption_gap::Case;
-use gumption_gap::simulated::simulator_case;
+use gumption_gap::simulated::{PREDICTION_RUNS, simulator_case};
 
-use super::diagnosis::{NoMoreRuns, SimulatedCase};
-use super::{KeptRuns, MadeRuns, Program, design, made};
+use super::diagnosis::NoMoreRuns;
+use super::{KeptRuns, MadeRuns, Program, SimulatedCase, design, made};
 use crate::Failure;
 use crate::options::Threads;
 use crate::output::Destination;
@@ -98,10 +99,9 @@ impl SimulatorOptions {
             let MadeRuns { runs, notes } = made(folder, &given)?;
             let runs = KeptRuns::of(given, runs);
             // a plan fills the space with a third of its runs, as a design does with all
-            let (simulator, budget) = (Box::new(NoMoreRuns), 3 * self.budget());
+            let budget = 3 * self.budget();
             let stop = Arc::clone(stop);
-            let keep = None;
-            return Ok(Some((SimulatedCase { runs, simulator, budget, keep, stop }, notes)));
+            return Ok(Some((SimulatedCase::new(runs, Box::new(NoMoreRuns), budget, stop), notes)));
         }
         let Some(command) = self.simulator.as_deref() else {
             let reason = "the outputs of this case come from a simulator: add --simulator COMMAND to run \
@@ -109,12 +109,43 @@ impl SimulatorOptions {
                           runs to make";
             return Err(Failure::Argument(reason.to_owned()));
         };
+        self.of_program(command, given, self.keep.clone(), (self.budget(), threads, stop)).map(Some)
+    }
+
+    /// The simulator in other rows than those of the data. With `--keep` its runs are in a folder of their own
+    /// within FOLDER.
+    ///
+    /// # Errors
+    /// Runs that cannot be read or kept.
+    pub(crate) fn elsewhere(
+        &self,
+        case: &Case,
+        at: &[Row],
+        threads: &Threads,
+        stop: &Arc<AtomicBool>,
+    ) -> Result<Option<SimulatedCase>, Failure> {
+        let Some((command, given)) = self.simulator.as_deref().zip(simulator_case(case, at)) else {
+            return Ok(None);
+        };
+        let keep = self.keep.as_ref().map(|folder| prediction_folder(folder, &given));
+        let of = self.of_program(command, given, keep, (PREDICTION_RUNS, threads, stop))?;
+        Ok(Some(of.0))
+    }
+
+    /// The simulator that a command is, with the runs in a folder.
+    fn of_program(
+        &self,
+        command: &str,
+        given: SimulatorCase,
+        keep: Option<PathBuf>,
+        (budget, threads, stop): (usize, &Threads, &Arc<AtomicBool>),
+    ) -> Result<(SimulatedCase, Vec<String>), Failure> {
         let program = self.program(command, threads, stop)?;
-        let (runs, notes) = self.runs(given, command)?;
-        let (simulator, budget) = (Box::new(program), self.budget());
-        let keep = self.keep.clone().map(|folder| (folder, command.to_owned()));
-        let stop = Arc::clone(stop);
-        Ok(Some((SimulatedCase { runs, simulator, budget, keep, stop }, notes)))
+        let (runs, notes) = match keep {
+            Some(folder) => KeptRuns::open(&folder, given, command)?,
+            None => (KeptRuns::in_memory(given), Vec::new()),
+        };
+        Ok((SimulatedCase::new(runs, Box::new(program), budget, Arc::clone(stop)), notes))
     }
 
     fn budget(&self) -> usize {
@@ -135,17 +166,6 @@ impl SimulatorOptions {
         Ok(if self.simulator_lines { program.line_by_line() } else { program })
     }
 
-    fn runs(
-        &self,
-        given: SimulatorCase,
-        command: &str,
-    ) -> Result<(KeptRuns, Vec<String>), Failure> {
-        match &self.keep {
-            Some(folder) => KeptRuns::open(folder, given, command),
-            None => Ok((KeptRuns::in_memory(given), Vec::new())),
-        }
-    }
-
     /// The error that an option needs a simulator.
     fn without_simulator(&self) -> Failure {
         let option = match (&self.simulator, &self.made) {
@@ -157,6 +177,12 @@ impl SimulatorOptions {
             "`{option}` needs a case whose outputs come from a simulator; this case has no `simulator`"
         ))
     }
+}
+
+/// The folder within that of a diagnosis in which runs of a prediction are kept: its name is the beginning of
+/// the hash of what the simulator is run with there.
+pub fn prediction_folder(folder: &Path, elsewhere: &SimulatorCase) -> PathBuf {
+    folder.join(format!("predict-{}", &elsewhere.hash()[..12]))
 }
 
 /// A number of runs.

@@ -61,6 +61,22 @@ fn a_simulator_gets_inputs_and_the_parameters_of_its_effects() {
     assert_eq!(case.check(), Ok(()));
 }
 
+/// An angle of the whole turn makes no effect absent, so that the size alone is left.
+#[test]
+fn an_effect_with_a_size_and_a_direction_is_absent_without_its_size() {
+    let mut file = pendulum();
+    file["effects"]["eccentricity"] = json!({"simulator": true, "parameters": {
+        "phase": {"unit": "deg", "distribution": "rectangular", "lower": 0, "upper": 360},
+        "size": {"unit": "m", "distribution": "log-uniform", "lower": 1e-4, "upper": 1e-2}}});
+    let case = read(&file).unwrap().case;
+    let space = case.simulator.as_ref().unwrap().space();
+    let values = space.values(&[], &[0.0]);
+    assert_eq!(space.names()[4..], ["phase", "size"]);
+    assert!((values[4] - 180.0).abs() < 1e-12 && values[5] == 0.0, "{values:?}");
+    file["effects"]["eccentricity"]["parameters"]["phase"]["upper"] = json!(180);
+    assert!(read(&file).unwrap_err().contains("has 2 parameters; say which of them"));
+}
+
 /// Changes the case at a pointer; `null` takes away what is there.
 fn mistake(pointer: &str, key: &str, value: Value) -> String {
     let mut file = pendulum();

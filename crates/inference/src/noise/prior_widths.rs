@@ -280,8 +280,8 @@ pub fn note(effects: &[String]) -> Option<Fact> {
     Some(fact!("wide-priors.several", effects, times))
 }
 
-/// Whether a prior has all angles there are, so that no other is beyond it.
-fn is_whole_turn(prior: &Distribution, unit: &Unit) -> bool {
+/// Whether a prior has all angles there are, so that no other is beyond it, and 0 is one like any other.
+pub fn is_whole_turn(prior: &Distribution, unit: &Unit) -> bool {
     let range = unit.factor() * 2.0 * half_width(prior);
     unit.turn() == Some(Turn::Angle)
         && matches!(prior, Distribution::Rectangular(_))
