@@ -6,7 +6,6 @@ use std::sync::atomic::AtomicBool;
 
 use clap::{Args, ValueEnum};
 
-use super::exit::say_line;
 use super::options::{AnswerOptions, Case, CoverageOption, Interactive, Seed, Threads};
 use super::simulator::{SimulatedCase, SimulatorOptions};
 use super::{CommandLine, Exit, Failure, output, progress, run, signals};
@@ -64,8 +63,8 @@ impl Gap {
         let at = self.predict.as_ref().map(|path| self.case.at(program, path)).transpose()?;
         let mut read = self.case.paths(&file);
         read.extend(self.predict.clone());
-        if let Some(path) = self.simulator.design() {
-            let [design] = output::open([("--design", Some(path))], &read)?;
+        let [design] = output::open([("--design", self.simulator.design())], &read)?;
+        if self.simulator.is_design_alone() {
             let seed = self.seed.or(file.case.task.settings.seed);
             let written = design.map(|to| self.simulator.write_design(&file.case, seed, to));
             return written.unwrap_or(Ok(())).map(|()| Exit::Done);
@@ -80,12 +79,18 @@ impl Gap {
             Some((mut simulated, notes)) => {
                 self.answer.note(notes);
                 let found = self.diagnose_simulated(&file, &mut simulated)?;
+                if let Some((found, to)) = found.as_ref().zip(design) {
+                    let first = simulated.runs().runs().made().len() + 1;
+                    self.simulator.write_runs(&file.case, &found.more, first, to)?;
+                }
                 let found = match (found, at) {
                     (Some(found), Some(at)) => self.predict_simulated(&file, &found, at, &stop)?,
                     (found, _) => found.map(|found| found.diagnosis),
                 };
-                self.say_runs(&simulated, found.is_some());
-                let Some(diagnosis) = found else { return Ok(Exit::Interrupted) };
+                let Some(diagnosis) = found else {
+                    self.answer.note([simulated.interrupted()]);
+                    return Ok(Exit::Interrupted);
+                };
                 diagnosis
             }
         };
@@ -114,16 +119,6 @@ impl Gap {
             files.push((name, bytes));
         }
         Ok(run::provenance(&file.source.text, &files))
-    }
-
-    /// Says which runs failed, or how many there were before an interruption.
-    fn say_runs(&self, simulated: &SimulatedCase, is_done: bool) {
-        let note = if is_done { simulated.failed() } else { Some(simulated.interrupted()) };
-        // a reason may have lines of a program's standard error
-        let note = note.unwrap_or_default();
-        let mut lines = note.lines();
-        self.answer.note(lines.next());
-        lines.filter(|_| !self.answer.quiet).for_each(|line| say_line(&format!("    {line}")));
     }
 
     fn diagnose_simulated(

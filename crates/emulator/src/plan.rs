@@ -139,6 +139,42 @@ impl Plan {
         Ok(filled(space, runs, seed))
     }
 
+    /// What runs that were made elsewhere leave open, from the states of hypotheses and the errors of the
+    /// emulator, the norm over all rows in u, where they are known; and the runs of the next round.
+    pub fn of_made(
+        space: &Space,
+        runs: usize,
+        found: Vec<(State, Option<f64>)>,
+        seed: u64,
+    ) -> (Ending, Vec<Batch>) {
+        let (used, turn) = (runs, 0);
+        let (phase, stage) = (Phase::All, Stage::Decide);
+        let mut plan = Self {
+            space: space.clone(),
+            budget: runs,
+            seed,
+            used,
+            turn,
+            phase,
+            stage,
+            found: BTreeMap::new(),
+            errors: BTreeMap::new(),
+        };
+        for (state, error) in found {
+            if let Some(last) = error {
+                plan.errors.insert(state.effects.clone(), Errors { last, before: None });
+            }
+            plan.found.insert(state.effects.clone(), state);
+        }
+        let ending = plan.ending();
+        let next = ending.open.iter().filter_map(|open| {
+            let state = plan.found.get(&open.effects)?;
+            Some(plan.batch(state, runs_in_round(&open.effects)))
+        });
+        let next = next.collect();
+        (ending, next)
+    }
+
     /// How many runs were asked for so far.
     pub fn used(&self) -> usize {
         self.used

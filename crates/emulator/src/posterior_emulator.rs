@@ -31,6 +31,11 @@ impl PosteriorEmulator {
         self.rows
     }
 
+    /// Whether there were runs of a hypothesis.
+    pub fn knows(&self, effects: &[usize]) -> bool {
+        self.layers.contains_key(effects)
+    }
+
     /// Learns a hypothesis from runs about its posterior. Runs with an output that is no finite number or
     /// with another number of rows are left out; where none is left the hypothesis is not known.
     pub fn learn(&mut self, effects: &[usize], runs: &[SimulatorRun], focus: &Focus) {

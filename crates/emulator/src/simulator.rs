@@ -47,6 +47,16 @@ impl SimulatorCase {
         self.outputs.iter().map(|output| output.name.clone()).collect()
     }
 
+    /// Values of all parameters for a message: `length = 0.5 m, drag = 0.1 1/s`.
+    pub fn shown(&self, values: &[f64]) -> String {
+        let shown = self.parameters.iter().zip(values).map(|(parameter, value)| {
+            let unit = Some(&parameter.unit).filter(|unit| *unit != "1");
+            let unit = unit.map(|unit| format!(" {unit}")).unwrap_or_default();
+            format!("{} = {value:?}{unit}", parameter.name)
+        });
+        shown.collect::<Vec<String>>().join(", ")
+    }
+
     /// The hash of the case: SHA-256 of all names and units, and of the bits of the conditions, in 64
     /// hexadecimal digits. Runs with the same parameters belong together only if the hashes agree.
     pub fn hash(&self) -> String {

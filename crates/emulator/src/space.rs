@@ -189,6 +189,15 @@ impl Space {
         unknowns.map(|(place, &value)| self.axes[place].score(value)).collect()
     }
 
+    /// The effects that act at values of all parameters: those of which a parameter that makes them absent is
+    /// elsewhere.
+    pub fn acting(&self, values: &[f64]) -> Vec<usize> {
+        let acts = |effect: &PlacedEffect| {
+            effect.neutral.iter().any(|&(place, neutral)| values[place] != neutral)
+        };
+        (0..self.effects.len()).filter(|&effect| acts(&self.effects[effect])).collect()
+    }
+
     /// The scaled coordinates of a point, with slopes by its scores: 2 Φ(z) - 1 where a prior is flat, also
     /// in the logarithm, and a third of the standardized value elsewhere, within 2.5.
     pub fn at_scores(&self, effects: &[usize], scores: &[f64]) -> Vec<Coordinate> {
@@ -267,6 +276,14 @@ mod tests {
         // the logarithm's middle is rounded twice
         assert_eq!(values[..4], [0.5, 9.8, 28.5, 0.5]);
         assert!((values[4] - 1e-3).abs() < 1e-17, "{}", values[4]);
+    }
+
+    #[test]
+    fn an_effect_acts_where_what_makes_it_absent_is_elsewhere() {
+        let acting = |rim, caught, drag| space().acting(&[0.5, 9.8, rim, caught, drag]);
+        assert_eq!(acting(1e6, 0.2, 0.0), [0usize; 0]);
+        assert_eq!(acting(20.0, 0.2, 0.0), [0]);
+        assert_eq!(acting(20.0, 0.0, 1e-3), [0, 1]);
     }
 
     #[test]

@@ -112,15 +112,20 @@ pub(crate) fn prediction(
         .hypotheses
         .iter()
         .filter(|h| h.probability > LEAST_SHARE && h.evidence.has_draws())
+        .filter(|h| setup.case.can_predict(&h.effects))
     {
         let draws = hypothesis.evidence.resampled(shrink::draws_for(rows.len()));
         let values = predict::values(setup, &hypothesis.effects, &draws, rows);
         add(hypothesis.probability, &shrink::moments(&values));
     }
     if posterior.departs() > LEAST_SHARE {
-        let kinds = &posterior.kinds();
+        let mut kinds = posterior.kinds();
+        kinds.retain(|kind| {
+            let effects = kind.base.as_ref().map_or(&[][..], |base| &base.effects);
+            setup.case.can_predict(effects)
+        });
         let normals =
-            departure_prediction::departure(setup, discrepancy, kinds, compositions, rows);
+            departure_prediction::departure(setup, discrepancy, &kinds, compositions, rows);
         add(posterior.departs(), &normals);
     }
     let is_partly = |sums: &&Vec<(f64, f64, f64)>| {

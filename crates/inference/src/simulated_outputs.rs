@@ -66,6 +66,13 @@ impl Case {
         Some((case, rows))
     }
 
+    /// Whether these effects can be predicted: after runs of a simulator in other rows, whether these were made
+    /// with them; always else.
+    pub fn can_predict(&self, effects: &[usize]) -> bool {
+        let elsewhere = self.simulator.as_ref().and_then(|simulator| simulator.elsewhere.as_ref());
+        elsewhere.is_none_or(|of| of.emulator.knows(&self.simulator_effects(effects)))
+    }
+
     /// What the simulator gives in a row at the estimates.
     fn evaluated_simulator(&self, row: &Row) -> Option<Vec<f64>> {
         let there = self.simulated_at(&row.estimates())?;

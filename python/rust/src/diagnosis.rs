@@ -15,7 +15,7 @@ use gumption::gap::simulated::{
 };
 use gumption::report::{self, Provenance};
 use numpy::{PyArray1, PyArray2, PyArrayMethods, PyReadonlyArray2};
-use pyo3::exceptions::{PyKeyboardInterrupt, PyValueError};
+use pyo3::exceptions::PyKeyboardInterrupt;
 use pyo3::prelude::*;
 use pyo3::types::{PyBytes, PyDict, PyList};
 
@@ -88,11 +88,9 @@ impl Simulator for AskingSimulator {
 
 /// Has a Python generator make runs: it takes an array, a line of parameters for each run, and yields the
 /// place of a run with an array of all outputs, or with the reason why there is none.
-fn make(simulate: &Bound<'_, PyAny>, asked: &Asked) -> PyResult<()> {
-    let py = simulate.py();
-    let lines = PyArray2::from_vec2(py, &asked.batch);
-    let lines = lines.map_err(|error| PyValueError::new_err(error.to_string()))?;
-    let runs = simulate.call1((lines,))?;
+fn make(simulate: &Bound<'_, PyAny>, asked: &Asked, given: &SimulatorCase) -> PyResult<()> {
+    let batch = lines(simulate.py(), &asked.batch, given)?;
+    let runs = simulate.call1((batch,))?;
     for run in runs.try_iter()? {
         let (index, result): (usize, Bound<'_, PyAny>) = run?.extract()?;
         let result = match result.extract::<String>() {
@@ -151,44 +149,68 @@ impl SimulatedGap {
         report::words::notes(&self.0.file.warnings).into_iter().map(|note| note.text).collect()
     }
 
-    /// Diagnoses it with at most so many runs, which `simulate` makes; `None` for the runs of `made`, lines
-    /// of parameters and of all outputs, and no others.
-    #[pyo3(signature = (simulate, runs, seed=None, folder=None, name="", made=None, progress=None))]
+    /// Diagnoses it with at most so many runs, which `simulate` makes.
+    #[pyo3(signature = (simulate, runs, seed=None, folder=None, name="", progress=None))]
     #[allow(clippy::too_many_arguments)] // those of the Python function
     fn diagnose(
         &self,
         py: Python<'_>,
-        simulate: Option<&Bound<'_, PyAny>>,
+        simulate: &Bound<'_, PyAny>,
         runs: usize,
         seed: Option<u64>,
         folder: Option<PathBuf>,
         name: &str,
-        made: Option<(PyReadonlyArray2<'_, f64>, PyReadonlyArray2<'_, f64>)>,
         progress: Option<&Bound<'_, PyAny>>,
     ) -> PyResult<SimulatorGap> {
-        let read = Arc::clone(&self.0);
-        let given = read.given.clone();
-        let kept = match (folder, made) {
-            (Some(folder), _) => opened(py, &folder, given, name)?,
-            (None, Some((parameters, outputs))) => {
-                let (parameters, outputs) = (parameters.as_array(), outputs.as_array());
-                let mut runs = Runs::new(given.parameter_names());
-                for (parameters, outputs) in parameters.rows().into_iter().zip(outputs.rows()) {
-                    let run = Run { parameters: parameters.to_vec(), result: Ok(outputs.to_vec()) };
-                    runs.keep(run).map_err(|error| argument(py, error.to_string()))?;
-                }
-                KeptRuns::of(given, runs)
-            }
-            (None, None) => KeptRuns::in_memory(given),
+        let given = self.0.given.clone();
+        let kept = match folder {
+            Some(folder) => opened(py, &folder, given, name)?,
+            None => KeptRuns::in_memory(given),
         };
+        self.diagnosed(py, Some(simulate), seed, progress, move |simulator, stop| {
+            SimulatedCase::new(kept, simulator, runs, stop)
+        })
+    }
+
+    /// Diagnoses it with runs that were made before: a line of parameters for each, and one of all outputs.
+    #[pyo3(signature = (parameters, outputs, seed=None, progress=None))]
+    fn diagnose_made(
+        &self,
+        py: Python<'_>,
+        parameters: PyReadonlyArray2<'_, f64>,
+        outputs: PyReadonlyArray2<'_, f64>,
+        seed: Option<u64>,
+        progress: Option<&Bound<'_, PyAny>>,
+    ) -> PyResult<SimulatorGap> {
+        let given = self.0.given.clone();
+        let (parameters, outputs) = (parameters.as_array(), outputs.as_array());
+        let mut runs = Runs::new(given.parameter_names());
+        for (parameters, outputs) in parameters.rows().into_iter().zip(outputs.rows()) {
+            let run = Run { parameters: parameters.to_vec(), result: Ok(outputs.to_vec()) };
+            runs.keep(run).map_err(|error| argument(py, error.to_string()))?;
+        }
+        self.diagnosed(py, None, seed, progress, move |_, stop| {
+            SimulatedCase::of_made(given, runs, stop)
+        })
+    }
+}
+
+impl SimulatedGap {
+    fn diagnosed(
+        &self,
+        py: Python<'_>,
+        simulate: Option<&Bound<'_, PyAny>>,
+        seed: Option<u64>,
+        progress: Option<&Bound<'_, PyAny>>,
+        with: impl FnOnce(Box<dyn Simulator + Send>, Arc<AtomicBool>) -> SimulatedCase + Send + 'static,
+    ) -> PyResult<SimulatorGap> {
+        let read = Arc::clone(&self.0);
         let options = DiagnosisOptions::new(seed.unwrap_or(read.file.case.task.settings.seed));
-        let found = simulated(py, simulate, progress, {
+        let found = simulated(py, &read.given, simulate, progress, {
             let read = Arc::clone(&read);
             move |watch, simulator| {
                 let told = |share: f64| watch.done.store((share * PARTS) as u64, Ordering::Relaxed);
-                let stop = Arc::clone(&watch.stop);
-                let mut simulated = SimulatedCase::new(kept, simulator, runs, stop);
-                simulated.diagnose(&read.file.case, options, &told)
+                with(simulator, Arc::clone(&watch.stop)).diagnose(&read.file.case, options, &told)
             }
         })?;
         let provenance = Provenance::of(&read.file.source.text, &read.file.files);
@@ -205,15 +227,25 @@ fn opened(py: Python<'_>, folder: &Path, given: SimulatorCase, name: &str) -> Py
     Ok(kept)
 }
 
+/// A line of parameters for each run.
+fn lines<'py>(
+    py: Python<'py>,
+    runs: &[Vec<f64>],
+    given: &SimulatorCase,
+) -> PyResult<Bound<'py, PyArray2<f64>>> {
+    PyArray1::from_vec(py, runs.concat()).reshape([runs.len(), given.parameters.len()])
+}
+
 /// Does some work with a simulator that is run in this thread.
 fn simulated<T: Send + 'static>(
     py: Python<'_>,
+    given: &SimulatorCase,
     simulate: Option<&Bound<'_, PyAny>>,
     progress: Option<&Bound<'_, PyAny>>,
     work: impl FnOnce(&Watch, Box<dyn Simulator + Send>) -> Result<Option<T>, Failure> + Send + 'static,
 ) -> PyResult<T> {
     let mut answer = |asked: Asked| match simulate {
-        Some(simulate) => make(simulate, &asked),
+        Some(simulate) => make(simulate, &asked, given),
         None => Ok(()),
     };
     let done = supervised_asking(py, progress, &mut answer, |watch, ask| {
@@ -256,6 +288,11 @@ impl SimulatorGap {
         self.0.found.diagnosis.notes.iter().map(report::gap::note).collect()
     }
 
+    /// Runs that would tell more, a line of parameters each; there are some of runs that were made before.
+    fn more<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyArray2<f64>>> {
+        lines(py, &self.0.found.more, &self.0.read.given)
+    }
+
     /// All runs: an array with a line of parameters for each, and for each an array of all outputs or the
     /// reason why there is none.
     #[allow(clippy::type_complexity)] // what stands in the line above
@@ -265,7 +302,7 @@ impl SimulatorGap {
     ) -> PyResult<(Bound<'py, PyArray2<f64>>, Bound<'py, PyList>)> {
         let made = self.0.found.runs.made();
         let parameters: Vec<Vec<f64>> = made.iter().map(|run| run.parameters.clone()).collect();
-        let parameters = PyArray2::from_vec2(py, &parameters);
+        let parameters = lines(py, &parameters, &self.0.read.given)?;
         let results = PyList::empty(py);
         for run in made {
             match &run.result {
@@ -273,7 +310,7 @@ impl SimulatorGap {
                 Err(reason) => results.append(reason)?,
             }
         }
-        Ok((parameters.map_err(|error| PyValueError::new_err(error.to_string()))?, results))
+        Ok((parameters, results))
     }
 
     /// The corrected simulator in the rows of a table of conditions: for each output its values and their
@@ -311,7 +348,7 @@ impl SimulatorGap {
             None => KeptRuns::in_memory(given),
         };
         let runs = runs.unwrap_or(PREDICTION_RUNS);
-        let diagnosis = simulated(py, Some(&simulate), None, {
+        let diagnosis = simulated(py, &of.read.given, Some(&simulate), None, {
             let of = Arc::clone(&of);
             move |watch, simulator| {
                 let stop = Arc::clone(&watch.stop);

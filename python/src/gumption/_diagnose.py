@@ -325,6 +325,14 @@ class Diagnosis:
         frame["failed"] = [result if isinstance(result, str) else None for result in results]
         return frame
 
+    @property
+    def more_runs(self) -> Any:
+        """The parameters of runs that would tell more than those that were made before, as a
+        ``pandas.DataFrame``; none where `diagnose` made all that it asked for."""
+        import pandas
+
+        return pandas.DataFrame(self._rust.more(), columns=self._case.parameters)
+
     def predict(
         self,
         conditions: Any,
@@ -518,8 +526,7 @@ def diagnose(
             raise ValueError("runs that were made before take no `executor` and no `resume`")
         made = simulator.arrays(read.parameters, read.outputs)
         with _bar(progress) as told:
-            # a plan fills the space with a third of its runs
-            found = read.diagnose(None, 3 * len(simulator), seed, made=made, progress=told)
+            found = read.diagnose_made(*made, seed, told)
         return Diagnosis(found, read, None)
     if not callable(simulator):
         kind = type(simulator).__name__
@@ -552,20 +559,22 @@ def _case(
     for name, u in (uncertainties or {}).items():
         if name not in outputs:
             raise ValueError(f"`uncertainties` names {name!r}, which is none of the outputs")
-        if isinstance(u, str) and u in table:
-            wanted[u] = table[u]
-        elif not isinstance(u, str):
-            values = np.asarray(u, dtype=np.float64)
-            if values.ndim == 0:
-                u = float(values)
-            elif values.shape != table[name].shape:
-                raise ValueError(
-                    f"the uncertainties of {name!r} have the shape {values.shape}, the data {table[name].shape}"
-                )
-            else:
-                u = f"u({name})"
-                wanted[u] = values
-        observed[name]["standard_uncertainty"] = u
+        if isinstance(u, str) and u not in table:
+            observed[name]["standard_uncertainty"] = u
+            continue
+        values = table[u] if isinstance(u, str) else np.asarray(u, dtype=np.float64)
+        if values.ndim == 0:
+            observed[name]["standard_uncertainty"] = float(values)
+            continue
+        if values.shape != table[name].shape:
+            raise ValueError(
+                f"the uncertainties of {name!r} have the shape {values.shape}, the data {table[name].shape}"
+            )
+        column = f"u_{name}"
+        while column in wanted:
+            column += "_"
+        wanted[column] = values
+        observed[name]["standard_uncertainty"] = column
     known = {str(name): as_input(value, f"`{name}`") for name, value in (inputs or {}).items()}
     listed = {str(name): as_effect(value, str(name)) for name, value in (effects or {}).items()}
     for given in [*known.values(), *(i for of in listed.values() for i in of.parameters.values())]:

@@ -59,12 +59,18 @@ class SimulatedGap:
     def notes(self) -> list[str]: ...
     def diagnose(
         self,
-        simulate: Callable[[npt.NDArray[np.float64]], Iterable[tuple[int, Any]]] | None,
+        simulate: Callable[[npt.NDArray[np.float64]], Iterable[tuple[int, Any]]],
         runs: int,
         seed: int | None = None,
         folder: str | None = None,
         name: str = "",
-        made: tuple[npt.NDArray[np.float64], npt.NDArray[np.float64]] | None = None,
+        progress: Callable[[int], object] | None = None,
+    ) -> SimulatorGap: ...
+    def diagnose_made(
+        self,
+        parameters: npt.NDArray[np.float64],
+        outputs: npt.NDArray[np.float64],
+        seed: int | None = None,
         progress: Callable[[int], object] | None = None,
     ) -> SimulatorGap: ...
 
@@ -74,6 +80,7 @@ class SimulatorGap:
     def notes(self) -> list[str]: ...
     def json(self) -> str: ...
     def to(self, format: str) -> bytes: ...
+    def more(self) -> npt.NDArray[np.float64]: ...
     def runs(self) -> tuple[npt.NDArray[np.float64], list[Any]]: ...
     def predict(
         self,

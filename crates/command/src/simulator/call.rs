@@ -59,7 +59,7 @@ impl FailedCall {
     }
 
     /// The reason of the failure; `None` if the runs are to stop.
-    pub(super) fn reason(&self, at: &str, timeout: Option<Duration>) -> Option<String> {
+    pub(super) fn reason(&self, timeout: Option<Duration>) -> Option<String> {
         let found = match &self.why {
             NoResult::Stopped => return None,
             NoResult::Timeout => {
@@ -70,9 +70,9 @@ impl FailedCall {
         };
         let errors = match self.errors.as_str() {
             "" => String::new(),
-            errors => format!("; its standard error ends with:\n{errors}"),
+            errors => format!("; its standard error ends with: {errors}"),
         };
-        Some(format!("the simulator failed at {at}: {found}{errors}"))
+        Some(format!("{found}{errors}"))
     }
 }
 

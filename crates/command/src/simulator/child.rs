@@ -244,7 +244,7 @@ impl Running {
         let lines: Vec<&str> = text.trim_end().lines().collect();
         let last = &lines[lines.len().saturating_sub(LINES)..];
         let shown = last.iter().map(|line| printable(&line.replace('\t', "    ")));
-        shown.collect::<Vec<String>>().join("\n")
+        shown.collect::<Vec<String>>().join(" | ")
     }
 }
 

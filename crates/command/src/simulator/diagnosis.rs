@@ -1,13 +1,14 @@
 //! The diagnosis of a case whose outputs come from a simulator.
 
 use std::fmt;
-use std::ops::ControlFlow;
 use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
 
-use gumption_emulator::{RunResult, Simulator, SimulatorCase};
+use gumption_emulator::{RunResult, Runs, Simulator, SimulatorCase};
 use gumption_engine::task::Row;
-use gumption_gap::simulated::{MakeRuns, ParameterSet, SimulatorDiagnosis, diagnose};
+use gumption_gap::simulated::{
+    MakeRuns, ParameterSet, SimulatorDiagnosis, diagnose, diagnose_made,
+};
 use gumption_gap::{Case, Diagnosis, DiagnosisOptions, OverrideError};
 
 use super::KeptRuns;
@@ -17,7 +18,8 @@ use crate::Failure;
 /// was not before, and kept.
 pub struct SimulatedCase {
     runs: KeptRuns,
-    simulator: Box<dyn Simulator + Send>,
+    /// What makes runs; `None` if no more can be made.
+    simulator: Option<Box<dyn Simulator + Send>>,
     budget: usize,
     stop: Arc<AtomicBool>,
 }
@@ -37,7 +39,12 @@ impl SimulatedCase {
         budget: usize,
         stop: Arc<AtomicBool>,
     ) -> Self {
-        Self { runs, simulator, budget, stop }
+        Self { runs, simulator: Some(simulator), budget, stop }
+    }
+
+    /// Runs that were made elsewhere, and nothing to make more of them.
+    pub fn of_made(case: SimulatorCase, runs: Runs, stop: Arc<AtomicBool>) -> Self {
+        Self { runs: KeptRuns::of(case, runs), simulator: None, budget: 0, stop }
     }
 
     /// The runs.
@@ -56,8 +63,12 @@ impl SimulatedCase {
         progress: &(dyn Fn(f64) + Sync),
     ) -> Result<Option<SimulatorDiagnosis>, Failure> {
         let (budget, kept) = (self.budget, self.runs.runs().clone());
-        let (simulator, stop) = (&*self.simulator, &*self.stop);
-        with_runs(&mut self.runs, simulator, stop, |make| {
+        let stop = &*self.stop;
+        let Some(simulator) = &self.simulator else {
+            let found = diagnose_made(case, kept, options, progress, stop);
+            return found.map_err(|error| Failure::System(error.to_string()));
+        };
+        with_runs(&mut self.runs, &**simulator, stop, |make| {
             diagnose(case, make, budget, kept, options, progress, stop)
         })
     }
@@ -65,15 +76,20 @@ impl SimulatedCase {
     /// A diagnosis with its predictions in other rows, whose runs are these; `None` if it was stopped.
     ///
     /// # Errors
-    /// Rows that are none of the case, no run of a hypothesis, or one that cannot be kept.
+    /// Rows that are none of the case, no run of a hypothesis, or one that cannot be kept; runs that were made
+    /// elsewhere.
     pub fn predict(
         &mut self,
         found: &SimulatorDiagnosis,
         at: Vec<Row>,
     ) -> Result<Option<Diagnosis>, Failure> {
         let (budget, kept) = (self.budget, self.runs.runs().clone());
-        let (simulator, stop) = (&*self.simulator, &*self.stop);
-        let predicted = with_runs(&mut self.runs, simulator, stop, |make| {
+        let stop = &*self.stop;
+        let Some(simulator) = &self.simulator else {
+            let reason = "predictions need the simulator, which is run at the other conditions";
+            return Err(Failure::Argument(reason.to_owned()));
+        };
+        let predicted = with_runs(&mut self.runs, &**simulator, stop, |make| {
             found.predict(at, make, budget, kept)
         });
         match predicted {
@@ -88,15 +104,6 @@ impl SimulatedCase {
         let how =
             if self.runs.are_kept() { ", which are kept; the same command continues" } else { "" };
         format!("interrupted after {count} runs{how}")
-    }
-
-    /// The sentence about runs that failed, with the reason of the first one.
-    pub(crate) fn failed(&self) -> Option<String> {
-        let made = self.runs.runs().made();
-        let mut reasons = made.iter().filter_map(|run| run.result.as_ref().err());
-        let first = reasons.next()?;
-        let count = 1 + reasons.count();
-        Some(format!("{count} of {} runs failed, the first of them: {first}", made.len()))
     }
 }
 
@@ -124,18 +131,5 @@ fn with_runs<T>(
     match not_kept {
         Some(failure) => Err(failure),
         None => found.map_err(|error| Failure::System(error.to_string())),
-    }
-}
-
-/// A simulator that cannot be run any more.
-pub(super) struct NoMoreRuns;
-
-impl Simulator for NoMoreRuns {
-    fn run(
-        &self,
-        _: &[Vec<f64>],
-        _: &SimulatorCase,
-        _: &mut dyn FnMut(usize, RunResult) -> ControlFlow<()>,
-    ) {
     }
 }

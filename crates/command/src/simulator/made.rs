@@ -9,7 +9,6 @@ use gumption_text::{Diagnostic, Diagnostics, SourceText, bytes};
 
 use super::answer;
 use super::design::RUN;
-use super::request::shown;
 use super::runs_file::{self, NAME, RunsFile};
 use crate::Failure;
 
@@ -71,8 +70,6 @@ pub fn made(folder: &Path, case: &SimulatorCase) -> Result<MadeRuns, Failure> {
             missing.push(format!("{number}"));
             continue;
         };
-        let at = shown(&case.parameters, &parameters);
-        let result = result.map_err(|found| format!("the simulator failed at {at}: {found}"));
         runs.keep(Run { parameters, result })
             .map_err(|error| Failure::Argument(format!("`{name}`: run {number}: {error}")))?;
     }

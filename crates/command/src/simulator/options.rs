@@ -11,7 +11,6 @@ use gumption_engine::task::Row;
 use gumption_gap::Case;
 use gumption_gap::simulated::{PREDICTION_RUNS, simulator_case};
 
-use super::diagnosis::NoMoreRuns;
 use super::{KeptRuns, MadeRuns, Program, SimulatedCase, design, made};
 use crate::Failure;
 use crate::options::Threads;
@@ -39,11 +38,11 @@ pub(crate) struct SimulatorOptions {
     #[arg(long, value_name = "FOLDER", requires = "simulator")]
     keep: Option<PathBuf>,
     /// Use the runs in FOLDER, and make none: kept runs, or parameters.csv with a file for each run,
-    /// 1.json or 1.csv
+    /// 1.json or 1.csv. With --design, the runs that would tell more are written
     #[arg(long, value_name = "FOLDER", conflicts_with_all = ["simulator", "predict"])]
     made: Option<PathBuf>,
-    /// Write the parameters of runs to be made elsewhere to FILE (CSV), and diagnose nothing
-    #[arg(long, value_name = "FILE", conflicts_with_all = ["simulator", "made", "predict"])]
+    /// Write the parameters of runs to be made elsewhere to FILE (CSV), and without --made diagnose nothing
+    #[arg(long, value_name = "FILE", conflicts_with_all = ["simulator", "predict"])]
     design: Option<PathBuf>,
     /// End a run that takes longer, with all processes that it started (on Windows the program alone);
     /// it has then failed
@@ -52,30 +51,45 @@ pub(crate) struct SimulatorOptions {
 }
 
 impl SimulatorOptions {
-    /// The file to which only a design is written.
+    /// The file to which a design is written.
     pub(crate) fn design(&self) -> Option<&Path> {
         self.design.as_deref()
     }
 
-    /// Writes the runs to be made.
+    /// Whether nothing is done but a design.
+    pub(crate) fn is_design_alone(&self) -> bool {
+        self.design.is_some() && self.made.is_none()
+    }
+
+    /// Writes the runs to be made before anything is known.
     pub(crate) fn write_design(
         &self,
         case: &Case,
         seed: u64,
         file: Destination,
     ) -> Result<(), Failure> {
-        let Some((simulator, given)) =
-            case.simulator.as_ref().zip(simulator_case(case, &case.task.rows))
-        else {
-            return Err(self.without_simulator());
-        };
+        let Some(simulator) = &case.simulator else { return Err(self.without_simulator()) };
         let space = simulator.space();
         let batches = Plan::filling(space, self.budget(), seed);
         let batches = batches.map_err(|error| Failure::Argument(error.to_string()))?;
         let sets = batches.iter().flat_map(|batch| {
             batch.scores.iter().map(|scores| space.values(&batch.effects, scores))
         });
-        let table = design(&given, &sets.collect::<Vec<_>>(), 1);
+        self.write_runs(case, &sets.collect::<Vec<_>>(), 1, file)
+    }
+
+    /// Writes runs to be made, numbered from `first` on.
+    pub(crate) fn write_runs(
+        &self,
+        case: &Case,
+        sets: &[Vec<f64>],
+        first: usize,
+        file: Destination,
+    ) -> Result<(), Failure> {
+        let Some(given) = simulator_case(case, &case.task.rows) else {
+            return Err(self.without_simulator());
+        };
+        let table = design(&given, sets, first);
         file.write_with(|out| out.write_all(table.as_bytes()).map(|()| true))
     }
 
@@ -97,11 +111,7 @@ impl SimulatorOptions {
         };
         if let Some(folder) = &self.made {
             let MadeRuns { runs, notes } = made(folder, &given)?;
-            let runs = KeptRuns::of(given, runs);
-            // a plan fills the space with a third of its runs, as a design does with all
-            let budget = 3 * self.budget();
-            let stop = Arc::clone(stop);
-            return Ok(Some((SimulatedCase::new(runs, Box::new(NoMoreRuns), budget, stop), notes)));
+            return Ok(Some((SimulatedCase::of_made(given, runs, Arc::clone(stop)), notes)));
         }
         let Some(command) = self.simulator.as_deref() else {
             let reason = "the outputs of this case come from a simulator: add --simulator COMMAND to run \

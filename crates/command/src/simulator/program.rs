@@ -13,7 +13,7 @@ use super::call::{Call, FailedCall};
 use super::child::Patience;
 use super::lines::{Lines, Waiting};
 use super::process;
-use super::request::{Requests, shown};
+use super::request::Requests;
 use super::words::words;
 
 /// A program that is started for each run or kept for many.
@@ -21,8 +21,8 @@ use super::words::words;
 /// On standard input it gets `{"parameters": {"length": 0.5}, "conditions": {"t": [0, 0.01]}}`, with all
 /// parameters and conditions of the case in their units. On standard output it writes
 /// `{"angle": [0.1, 0.2]}`, with all outputs in their units and a value for each row, and ends with exit
-/// code 0. Anything else is a failed run, whose reason says what was found, the parameters and the last
-/// lines of the standard error.
+/// code 0. Anything else is a failed run, whose reason says what was found and the last lines of the standard
+/// error.
 #[derive(Debug)]
 pub struct Program {
     words: Vec<String>,
@@ -91,8 +91,7 @@ impl Program {
             let result = match self.call(&call, &Patience { until, stops }) {
                 Ok(outputs) => Ok(outputs),
                 Err(failed) => {
-                    let at = shown(&batch.case.parameters, parameters);
-                    let Some(reason) = failed.reason(&at, self.timeout) else { return };
+                    let Some(reason) = failed.reason(self.timeout) else { return };
                     Err(reason)
                 }
             };

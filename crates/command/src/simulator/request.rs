@@ -33,12 +33,3 @@ impl<'c> Requests<'c> {
         format!("{{\"parameters\":{parameters},\"conditions\":{conditions}}}\n").into_bytes()
     }
 }
-
-/// The parameters of a run for a message: `length = 0.5 m, drag = 0.1 1/s`.
-pub(super) fn shown(parameters: &[SimulatorQuantity], values: &[f64]) -> String {
-    let shown = parameters.iter().zip(values).map(|(SimulatorQuantity { name, unit }, value)| {
-        let unit = if unit == "1" { String::new() } else { format!(" {unit}") };
-        format!("{name} = {}{unit}", json!(value))
-    });
-    shown.collect::<Vec<String>>().join(", ")
-}

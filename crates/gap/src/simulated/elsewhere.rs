@@ -44,12 +44,9 @@ impl SimulatorDiagnosis {
         kept: Runs,
     ) -> Result<Predictions, OverrideError> {
         let case = &self.known.case;
-        let Some(simulator) = &case.simulator else {
-            return Err(refused("the case has no simulator".to_owned()));
-        };
         let units = case.units_elsewhere().into_iter();
         let units: Vec<f64> = units.flat_map(|unit| vec![unit; rows.len()]).collect();
-        let mut runs = SimulatorRuns::new(simulator.space().clone(), units, kept)?;
+        let mut runs = SimulatorRuns::new(case, &rows, units, kept)?;
         let batches = self.batches(&runs, budget);
         let mut emulator = PosteriorEmulator::new(runs.space.clone(), runs.units.len());
         for (batch, made) in runs.made(batches, make)? {
@@ -83,10 +80,9 @@ impl SimulatorDiagnosis {
         let setup = known.setup(&known.case);
         let seed = self.diagnosis.seed;
         let mut lists: BTreeMap<Vec<usize>, (f64, Vec<&WeighedHypothesis>)> = BTreeMap::new();
-        for hypothesis in known.posterior.hypotheses.iter().filter(|h| h.evidence.has_draws()) {
+        for hypothesis in known.posterior.named().filter(|named| named.evidence.has_draws()) {
             let own = lists.entry(known.case.simulator_effects(&hypothesis.effects)).or_default();
-            own.0 +=
-                hypothesis.probability + known.posterior.probability_beside(&hypothesis.effects);
+            own.0 += hypothesis.probability;
             own.1.push(hypothesis);
         }
         let mut batches = Vec::new();

@@ -6,6 +6,7 @@
 
 mod case;
 mod elsewhere;
+mod made;
 mod notes;
 mod simulation;
 mod simulator_runs;
@@ -17,16 +18,17 @@ pub use gumption_emulator::{
     Ending, Open, Parameter, Run, RunHash, RunResult, Runs, RunsError, Simulator, SimulatorCase,
     SimulatorCondition, SimulatorEffect, SimulatorQuantity, Space, SpaceError,
 };
-use gumption_emulator::{Plan, Step, UnseenError};
+use gumption_emulator::{Plan, Step};
 
 pub use self::case::simulator_case;
 pub use self::elsewhere::{PREDICTION_RUNS, Predictions};
+pub use self::made::diagnose_made;
 use self::simulation::Simulation;
 use self::simulator_runs::SimulatorRuns;
-use crate::diagnose::{DiagnosisOptions, diagnosed};
-use crate::diagnosis::{Diagnosis, DiagnosisNote};
+use crate::diagnose::DiagnosisOptions;
+use crate::diagnosis::Diagnosis;
 use crate::known_gap::KnownGap;
-use crate::{Candidate, Case, OverrideError};
+use crate::{Case, OverrideError};
 
 /// What a simulator is called with: all inputs and all parameters of its effects, always.
 #[derive(Clone, Debug, PartialEq)]
@@ -49,6 +51,8 @@ pub struct SimulatorDiagnosis {
     pub last: Vec<Run>,
     /// How many runs were used, and what is not known well enough.
     pub ending: Ending,
+    /// The parameters of runs that would tell more, where none was made for the diagnosis.
+    pub more: Vec<Vec<f64>>,
     known: Arc<KnownGap>,
 }
 
@@ -77,11 +81,8 @@ pub fn diagnose(
     stop: &AtomicBool,
 ) -> Result<Option<SimulatorDiagnosis>, OverrideError> {
     case.check()?;
-    let Some(simulator) = &case.simulator else {
-        return Err(refused("the case has no simulator".to_owned()));
-    };
-    let runs = SimulatorRuns::new(simulator.space().clone(), case.simulator_units(), kept)?;
-    let mut plan = Plan::new(simulator.space().clone(), budget, options.seed)
+    let runs = SimulatorRuns::new(case, &case.task.rows, case.simulator_units(), kept)?;
+    let mut plan = Plan::new(runs.space.clone(), budget, options.seed)
         .map_err(|error| refused(error.to_string()))?;
     let mut simulation = Simulation::new(case, runs, options.seed, stop);
     let is_stopped = || stop.load(Ordering::Relaxed);
@@ -105,21 +106,8 @@ pub fn diagnose(
             Step::Done(ending) => break ending,
         }
     };
-    let emulated = simulation.emulated()?;
     let progress = |share: f64| progress(RUN + (1.0 - RUN) * share);
-    let (mut diagnosis, known) = diagnosed(&emulated, options, &progress, Some(stop))?;
-    without_simulated(&mut diagnosis, case.described());
-    diagnosis.notes.extend(notes::open(case, &ending));
-    let own = &diagnosis.most_probable.effects;
-    let is_named = |of: &&Candidate| own.contains(&of.effect.name);
-    let named: Vec<usize> =
-        case.candidates.iter().filter(is_named).filter_map(|of| of.simulator).collect();
-    let unseen = simulation.emulator.unseen(&named).map(UnseenError::median);
-    let facts =
-        std::iter::once(notes::runs(ending.runs, unseen)).chain(simulation.runs.failed_note());
-    diagnosis.notes.extend(facts.map(|fact| DiagnosisNote { fact }));
-    let SimulatorRuns { runs, last, .. } = simulation.runs;
-    Ok(Some(SimulatorDiagnosis { diagnosis, runs, last, ending, known: Arc::new(known) }))
+    simulation.concluded(ending, Vec::new(), options, &progress).map(Some)
 }
 
 /// Takes out the conditions that hold what the simulator gives.

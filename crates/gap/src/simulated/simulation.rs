@@ -1,15 +1,18 @@
 //! A simulator that is being run, and what its emulator knows so far.
 
+use std::sync::Arc;
 use std::sync::atomic::AtomicBool;
 
-use gumption_emulator::{Emulator, State};
+use gumption_emulator::{Emulator, Ending, State, UnseenError};
 use gumption_inference::posterior::WeighedHypothesis;
 use gumption_inference::setup::Setup;
 use gumption_inference::simulator_states;
 
-use super::refused;
 use super::simulator_runs::SimulatorRuns;
-use crate::{Case, OverrideError};
+use super::{SimulatorDiagnosis, notes, refused, without_simulated};
+use crate::diagnose::{DiagnosisOptions, diagnosed};
+use crate::diagnosis::DiagnosisNote;
+use crate::{Candidate, Case, OverrideError};
 
 /// A simulator that is being run.
 pub(super) struct Simulation<'c> {
@@ -83,5 +86,29 @@ impl<'c> Simulation<'c> {
         self.known.retain(|old| !found.iter().any(|new| new.effects == old.effects));
         self.known.extend(found);
         Ok(states)
+    }
+
+    /// The diagnosis with the emulator as it is; `more` are runs that would tell more.
+    pub(super) fn concluded(
+        self,
+        ending: Ending,
+        more: Vec<Vec<f64>>,
+        options: DiagnosisOptions,
+        progress: &(dyn Fn(f64) + Sync),
+    ) -> Result<SimulatorDiagnosis, OverrideError> {
+        let emulated = self.emulated()?;
+        let (mut diagnosis, known) = diagnosed(&emulated, options, progress, Some(self.stop))?;
+        without_simulated(&mut diagnosis, self.case.described());
+        diagnosis.notes.extend(notes::open(self.case, &ending));
+        let own = &diagnosis.most_probable.effects;
+        let is_named = |of: &&Candidate| own.contains(&of.effect.name);
+        let named = self.case.candidates.iter().filter(is_named);
+        let named: Vec<usize> = named.filter_map(|of| of.simulator).collect();
+        let unseen = self.emulator.unseen(&named).map(UnseenError::median);
+        let facts =
+            std::iter::once(notes::runs(ending.runs, unseen)).chain(self.runs.failed_note());
+        diagnosis.notes.extend(facts.map(|fact| DiagnosisNote { fact }));
+        let SimulatorRuns { runs, last, .. } = self.runs;
+        Ok(SimulatorDiagnosis { diagnosis, runs, last, ending, more, known: Arc::new(known) })
     }
 }

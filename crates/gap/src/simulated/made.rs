@@ -1,0 +1,98 @@
+//! The diagnosis of a simulator from runs that were made before, at whatever parameters.
+
+use std::collections::BTreeMap;
+use std::sync::atomic::{AtomicBool, Ordering};
+
+use gumption_emulator::{Focus, Plan, Runs, Space, UnseenError};
+
+use super::simulation::Simulation;
+use super::simulator_runs::SimulatorRuns;
+use super::{SimulatorDiagnosis, refused};
+use crate::diagnose::DiagnosisOptions;
+use crate::{Case, OverrideError};
+
+/// A constant parameter may be off by so much of itself, as of a table with fifteen digits.
+const ROUNDING: f64 = 1e-9;
+
+/// The share of the runs of a list of effects that the emulator learns from before the rest tells its error.
+const LEARNT: f64 = 2.0 / 3.0;
+
+/// Diagnoses a case with runs of its simulator that were made before, and makes none. What effects act in a
+/// run follows from its parameters. The runs that would tell more are those of
+/// [`more`](SimulatorDiagnosis::more). `None` once `stop` is set.
+///
+/// # Errors
+/// As [`diagnose`](super::diagnose); a run with another value of a parameter that is constant in the case.
+pub fn diagnose_made(
+    case: &Case,
+    runs: Runs,
+    options: DiagnosisOptions,
+    progress: &(dyn Fn(f64) + Sync),
+    stop: &AtomicBool,
+) -> Result<Option<SimulatorDiagnosis>, OverrideError> {
+    case.check()?;
+    let runs = SimulatorRuns::new(case, &case.task.rows, case.simulator_units(), runs)?;
+    let space = runs.space.clone();
+    let made = runs.runs.made();
+    let count = made.len();
+    let mut by_effects: BTreeMap<(usize, Vec<usize>), Vec<Vec<f64>>> = BTreeMap::new();
+    for run in made {
+        check_constants(&space, &run.parameters)?;
+        let effects = space.acting(&run.parameters);
+        let of = by_effects.entry((effects.len(), effects)).or_default();
+        of.push(run.parameters.clone());
+    }
+    let mut simulation = Simulation::new(case, runs, options.seed, stop);
+    for ((_, effects), parameters) in &by_effects {
+        let learnt = simulation.runs.at(effects, parameters)?;
+        let (first, rest) = learnt.split_at((LEARNT * learnt.len() as f64).ceil() as usize);
+        for part in [first, rest] {
+            simulation.emulator.learn(effects, part, None);
+        }
+    }
+    let singles = (0..space.effects()).map(|effect| vec![effect]);
+    let pairs = (0..space.effects())
+        .flat_map(|first| (first + 1..space.effects()).map(move |second| vec![first, second]));
+    let all: Vec<Vec<usize>> = std::iter::once(Vec::new()).chain(singles).chain(pairs).collect();
+    // where posteriors are says which runs are near them
+    for state in simulation.inferred(all.clone())? {
+        let focus = Focus::of(&space, &state.effects, &state.draws, &state.weights);
+        if simulation.emulator.correction(&state.effects).is_some() {
+            simulation.emulator.learn(&state.effects, &[], Some(focus));
+        }
+    }
+    let states = simulation.inferred(all)?;
+    if stop.load(Ordering::Relaxed) {
+        return Ok(None);
+    }
+    let errors = states.into_iter().map(|state| {
+        let error = simulation.emulator.unseen(&state.effects).map(UnseenError::median);
+        (state, error)
+    });
+    let (ending, next) = Plan::of_made(&space, count, errors.collect(), options.seed);
+    let more = next
+        .iter()
+        .flat_map(|batch| batch.scores.iter().map(|scores| space.values(&batch.effects, scores)));
+    let more = more.collect();
+    simulation.concluded(ending, more, options, progress).map(Some)
+}
+
+/// Checks that a run has the constants of the case.
+fn check_constants(space: &Space, parameters: &[f64]) -> Result<(), OverrideError> {
+    let Some(plain) = (parameters.len() == space.names().len()).then(|| space.values(&[], &[]))
+    else {
+        return Ok(());
+    };
+    let unknown = space.unknowns(&[]);
+    let constants = (0..space.inputs()).filter(|place| !unknown.contains(place));
+    for place in constants {
+        let (found, constant) = (parameters[place], plain[place]);
+        if (found - constant).abs() > ROUNDING * constant.abs() {
+            let name = &space.names()[place];
+            return Err(refused(format!(
+                "a run was made with {name} = {found}, which is constant in the case: {constant}"
+            )));
+        }
+    }
+    Ok(())
+}
