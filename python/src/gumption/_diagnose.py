@@ -160,7 +160,7 @@ class Runs:
     @property
     def rows(self) -> int:
         """Number of rows of the data."""
-        return next(iter(self.outputs.values())).shape[1]
+        return int(next(iter(self.outputs.values())).shape[1])
 
     @property
     def failed(self) -> npt.NDArray[np.bool_]:

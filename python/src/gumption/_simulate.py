@@ -8,7 +8,7 @@ import pickle
 import traceback
 from collections.abc import Callable, Generator, Iterator, Mapping
 from contextlib import closing
-from typing import Any
+from typing import Any, TypeAlias
 
 import numpy as np
 import numpy.typing as npt
@@ -17,7 +17,12 @@ from gumption._executors import Work, Workers
 from gumption._frames import columns, numbers
 
 #: What a run gives: all outputs, output after output, or the reason why there are none.
-Result = "npt.NDArray[np.float64] | str"
+Result: TypeAlias = "npt.NDArray[np.float64] | str"
+
+#: A simulator and the conditions of all rows, with the names of its parameters and outputs.
+Simulator: TypeAlias = (
+    "tuple[Callable[..., Any], Mapping[str, npt.NDArray[np.float64]], list[str], list[str]]"
+)
 
 
 class Simulate:
@@ -64,13 +69,13 @@ class Simulate:
         return functools.partial(_there, self._executor, one)
 
 
-def _here(one: Any, lines: npt.NDArray[np.float64]) -> Iterator[tuple[int, Result]]:
+def _here(one: Simulator, lines: npt.NDArray[np.float64]) -> Iterator[tuple[int, Result]]:
     for place, values in enumerate(lines.tolist()):
         yield place, run(*one, values)
 
 
 def _there(
-    executor: Any, one: Any, lines: npt.NDArray[np.float64]
+    executor: Any, one: Simulator, lines: npt.NDArray[np.float64]
 ) -> Generator[tuple[int, Result], None, None]:
     with Workers.of(executor) as workers:
         simulator = workers.pickled(one)
@@ -83,17 +88,15 @@ def _there(
 
 
 # the simulator that this process has read last
-_OPENED: dict[bytes, Any] = {}
+_OPENED: dict[bytes, Simulator] = {}
 
 
 def _at_worker(simulator: bytes, place: int, values: list[float]) -> Result:
     """A run, as a worker makes it."""
-    found = _OPENED.get(simulator)
-    if found is None:
-        found = pickle.loads(simulator)
+    if simulator not in _OPENED:
         _OPENED.clear()
-        _OPENED[simulator] = found
-    return run(*found, values)
+        _OPENED[simulator] = pickle.loads(simulator)
+    return run(*_OPENED[simulator], values)
 
 
 def run(
