@@ -3,6 +3,7 @@
 use gumption_engine::linalg::packed::{self, triangle};
 use gumption_engine::linalg::{add_multiple, dot};
 
+use crate::lengths::ValueScatter;
 use crate::matern::{correlation, inverse_squares};
 use crate::trend::{Trend, functions};
 
@@ -26,6 +27,16 @@ pub(crate) struct Conditioned {
     trend: Vec<Vec<f64>>,
     /// The Cholesky root of their products with each other.
     trend_root: Vec<f64>,
+    /// The variance of all functions, where it is not that of the greatest likelihood.
+    variance: Option<f64>,
+}
+
+/// A scatter of the first values about the function.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) struct Nugget {
+    /// The variance of the scatter, relative to that of the function.
+    pub(crate) share: f64,
+    pub(crate) scatter: ValueScatter,
 }
 
 /// A function, as its values at the points give it.
@@ -36,15 +47,24 @@ pub(crate) struct Target {
     /// What the functions of the trend are multiplied by.
     trend: Vec<f64>,
     pub(crate) variance: f64,
+    /// The sum of the squares of the whitened residuals.
+    pub(crate) squares: f64,
 }
 
 impl Conditioned {
-    pub(crate) fn new(points: Vec<Vec<f64>>, trend: Trend, ln_lengths: &[f64]) -> Self {
+    pub(crate) fn new(
+        points: Vec<Vec<f64>>,
+        trend: Trend,
+        ln_lengths: &[f64],
+        nugget: Option<Nugget>,
+    ) -> Self {
+        let scattered = nugget.map_or(0, |nugget| nugget.scatter.count);
+        let share = nugget.map_or(0.0, |nugget| nugget.share);
         let inverse_squares = inverse_squares(ln_lengths);
         let mut root = Vec::with_capacity(triangle(points.len()));
         for (i, point) in points.iter().enumerate() {
             root.extend(points[..i].iter().map(|b| correlation(point, b, &inverse_squares).value));
-            root.push(1.0 + NUGGET);
+            root.push(1.0 + NUGGET + if i < scattered { share } else { 0.0 });
         }
         packed::cholesky_of_definite(&mut root);
         let count = trend.functions(points.len(), ln_lengths.len());
@@ -61,7 +81,8 @@ impl Conditioned {
             trend_root.push(dot(&trend[i], &trend[i]) * (1.0 + RIDGE));
         }
         packed::cholesky_of_definite(&mut trend_root);
-        Self { points, inverse_squares, root, trend, trend_root }
+        let variance = nugget.map(|nugget| nugget.scatter.variance / nugget.share);
+        Self { points, inverse_squares, root, trend, trend_root, variance }
     }
 
     /// The function with these values at the points.
@@ -74,9 +95,11 @@ impl Conditioned {
         for (factor, of) in trend.iter().zip(&self.trend) {
             add_multiple(&mut residual, -factor, of);
         }
-        let variance = dot(&residual, &residual) / values.len().max(1) as f64 + LEAST_VARIANCE;
+        let squares = dot(&residual, &residual);
+        let likeliest = squares / values.len().max(1) as f64 + LEAST_VARIANCE;
+        let variance = self.variance.unwrap_or(likeliest);
         packed::solve_transposed(&self.root, &mut residual);
-        Target { weights: residual, trend, variance }
+        Target { weights: residual, trend, variance, squares }
     }
 
     /// Half the logarithm of the determinant of the correlations.

@@ -6,6 +6,7 @@ use crate::axis::Coordinate;
 use crate::focus::Focus;
 use crate::layer::{Layer, Reach};
 use crate::prediction::Prediction;
+use crate::scatter::Scatter;
 
 /// The corrections of a hypothesis: a layer that knows them everywhere, and where the posterior is narrow one
 /// that knows them there. The local one serves among its runs, the other far from them: hypotheses with more
@@ -24,10 +25,12 @@ impl Correction {
         corrections: &[Vec<f64>],
         reach: &Reach<'_>,
         focus: Option<&Focus>,
+        scatter: Option<&Scatter>,
     ) -> Self {
         let focus = focus.filter(|focus| focus.is_narrow());
-        let near = focus.map(|focus| Layer::learn(points, corrections, &Reach::Near(focus)));
-        Self { everywhere: Layer::learn(points, corrections, reach), near }
+        let learn = |reach: &Reach<'_>| Layer::learn(points, corrections, reach, scatter);
+        let near = focus.map(|focus| learn(&Reach::Near(focus)));
+        Self { everywhere: learn(reach), near }
     }
 
     /// The layer that knows all of the prior.
@@ -41,7 +44,7 @@ impl Correction {
     }
 
     /// The layers that serve at a point, with their shares.
-    fn serving(&self, point: &[Coordinate]) -> impl Iterator<Item = (f64, &Layer)> {
+    pub(crate) fn serving(&self, point: &[Coordinate]) -> impl Iterator<Item = (f64, &Layer)> {
         let near = self.near.as_ref().map_or(0.0, |near| near.share(point).0);
         let layers = [(1.0 - near, Some(&self.everywhere)), (near, self.near.as_ref())];
         let serves = |(share, layer): (f64, Option<_>)| Some((share, layer?));

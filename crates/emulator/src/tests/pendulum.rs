@@ -222,7 +222,12 @@ fn diagnose(data: &[f64], budget: usize, mut runs: Runs) -> Diagnosis {
                             let parameters = space.values(&batch.effects, scores);
                             if runs.find(&parameters).is_none() {
                                 let result = Ok(swing(&parameters));
-                                runs.keep(Run { parameters: parameters.clone(), result }).unwrap();
+                                runs.keep(Run {
+                                    parameters: parameters.clone(),
+                                    repetition: 0,
+                                    result,
+                                })
+                                .unwrap();
                             }
                             let outputs = runs.find(&parameters).unwrap().result.clone().unwrap();
                             SimulatorRun { scores: scores.clone(), outputs }
