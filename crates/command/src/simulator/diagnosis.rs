@@ -5,10 +5,11 @@ use std::path::PathBuf;
 use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
 
-use gumption_emulator::{RunResult, Simulator, SimulatorCase};
+use gumption_emulator::{RunKey, RunResult, Simulator, SimulatorCase};
 use gumption_engine::task::Row;
 use gumption_gap::simulated::{
-    MakeRuns, PREDICTION_RUNS, ParameterSet, SimulatorDiagnosis, diagnose, simulator_case,
+    MakeRuns, PREDICTION_RUNS, ParameterSet, RunBudget, SimulatorDiagnosis, diagnose,
+    simulator_case,
 };
 use gumption_gap::{Case, Diagnosis, DiagnosisOptions, OverrideError};
 
@@ -19,7 +20,7 @@ use crate::Failure;
 pub(crate) struct SimulatedCase {
     pub(super) runs: KeptRuns,
     pub(super) simulator: Box<dyn Simulator + Send>,
-    pub(super) budget: usize,
+    pub(super) budget: RunBudget,
     /// The folder in which runs are kept, and the command that makes them.
     pub(super) keep: Option<(PathBuf, String)>,
     pub(super) stop: Arc<AtomicBool>,
@@ -114,7 +115,11 @@ fn with_runs<T>(
 ) -> Result<T, Failure> {
     let mut not_kept = None;
     let mut make = |sets: &[ParameterSet]| -> Vec<RunResult> {
-        let batch: Vec<Vec<f64>> = sets.iter().map(|set| set.values.clone()).collect();
+        let key = |set: &ParameterSet| RunKey {
+            parameters: set.values.clone(),
+            repetition: set.repetition,
+        };
+        let batch: Vec<RunKey> = sets.iter().map(key).collect();
         let results = runs.results(simulator, &batch).unwrap_or_else(|failure| {
             not_kept = Some(failure);
             Vec::new()

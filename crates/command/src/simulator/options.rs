@@ -6,9 +6,9 @@ use std::sync::atomic::AtomicBool;
 use std::time::Duration;
 
 use clap::Args;
-use gumption_emulator::{Plan, SimulatorCase};
+use gumption_emulator::SimulatorCase;
 use gumption_gap::Case;
-use gumption_gap::simulated::simulator_case;
+use gumption_gap::simulated::{self, RunBudget, simulator_case};
 
 use super::diagnosis::{NoMoreRuns, SimulatedCase};
 use super::{KeptRuns, MadeRuns, Program, design, made};
@@ -63,18 +63,13 @@ impl SimulatorOptions {
         seed: u64,
         file: Destination,
     ) -> Result<(), Failure> {
-        let Some((simulator, given)) =
-            case.simulator.as_ref().zip(simulator_case(case, &case.task.rows))
-        else {
+        let Some(given) = simulator_case(case, &case.task.rows) else {
             return Err(self.without_simulator());
         };
-        let space = simulator.space();
-        let batches = Plan::filling(space, self.budget(), seed);
-        let batches = batches.map_err(|error| Failure::Argument(error.to_string()))?;
-        let sets = batches.iter().flat_map(|batch| {
-            batch.scores.iter().map(|scores| space.values(&batch.effects, scores))
-        });
-        let table = design(&given, &sets.collect::<Vec<_>>(), 1);
+        let runs = simulated::design(case, self.budget(), seed);
+        let runs = runs.map_err(|error| Failure::Argument(error.to_string()))?;
+        let sets: Vec<Vec<f64>> = runs.into_iter().map(|run| run.parameters).collect();
+        let table = design(&given, &sets, 1);
         file.write_with(|out| out.write_all(table.as_bytes()).map(|()| true))
     }
 
@@ -97,8 +92,7 @@ impl SimulatorOptions {
         if let Some(folder) = &self.made {
             let MadeRuns { runs, notes } = made(folder, &given)?;
             let runs = KeptRuns::of(given, runs);
-            // a plan fills the space with a third of its runs, as a design does with all
-            let (simulator, budget) = (Box::new(NoMoreRuns), 3 * self.budget());
+            let (simulator, budget) = (Box::new(NoMoreRuns), RunBudget::Made(self.budget()));
             let stop = Arc::clone(stop);
             let keep = None;
             return Ok(Some((SimulatedCase { runs, simulator, budget, keep, stop }, notes)));
@@ -111,7 +105,7 @@ impl SimulatorOptions {
         };
         let program = self.program(command, threads, stop)?;
         let (runs, notes) = self.runs(given, command)?;
-        let (simulator, budget) = (Box::new(program), self.budget());
+        let (simulator, budget) = (Box::new(program), RunBudget::Calls(self.budget()));
         let keep = self.keep.clone().map(|folder| (folder, command.to_owned()));
         let stop = Arc::clone(stop);
         Ok(Some((SimulatedCase { runs, simulator, budget, keep, stop }, notes)))

@@ -49,9 +49,11 @@ impl SimulatorDiagnosis {
         };
         let units = case.units_elsewhere().into_iter();
         let units: Vec<f64> = units.flat_map(|unit| vec![unit; rows.len()]).collect();
-        let mut runs = SimulatorRuns::new(simulator.space().clone(), units, kept)?;
+        let mut runs =
+            SimulatorRuns::new(simulator.space().clone(), units, kept, simulator.is_noisy())?;
         let batches = self.batches(&runs, budget);
-        let mut emulator = PosteriorEmulator::new(runs.space.clone(), runs.units.len());
+        let mut emulator = PosteriorEmulator::new(runs.space.clone(), runs.units.len())
+            .with_scatter(self.scatter.clone());
         for (batch, made) in runs.made(batches, make)? {
             if made.is_empty() {
                 let failed = runs.failed().map(|(at, why)| format!(": {at}: {why}"));

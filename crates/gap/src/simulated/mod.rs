@@ -7,17 +7,19 @@
 mod case;
 mod elsewhere;
 mod notes;
+mod repeats;
 mod simulation;
 mod simulator_runs;
 
 use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
 
+use gumption_emulator::{Batch, Plan, Step, UnseenError};
 pub use gumption_emulator::{
-    Ending, Open, Parameter, Run, RunHash, RunResult, Runs, RunsError, Simulator, SimulatorCase,
-    SimulatorCondition, SimulatorEffect, SimulatorQuantity, Space, SpaceError,
+    Ending, Open, OutputScatter, Parameter, Run, RunHash, RunKey, RunResult, Runs, RunsError,
+    Scatter, Simulator, SimulatorCase, SimulatorCondition, SimulatorEffect, SimulatorQuantity,
+    Space, SpaceError, TooFewRuns,
 };
-use gumption_emulator::{Plan, Step, UnseenError};
 
 pub use self::case::simulator_case;
 pub use self::elsewhere::{PREDICTION_RUNS, Predictions};
@@ -35,6 +37,54 @@ pub struct ParameterSet {
     pub names: Arc<[String]>,
     /// Their values, each in the parameter's unit.
     pub values: Vec<f64>,
+    /// How many runs with these values come before it: 0, unless the simulator is run again to see whether it
+    /// repeats, or how it scatters. The simulator does not get it.
+    pub repetition: usize,
+}
+
+/// How many runs of a simulator a diagnosis may take.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum RunBudget {
+    /// So many at most are made, those at the start and at the verdict included.
+    Calls(usize),
+    /// None can be made any more: there are those of a [`design`] of so many.
+    Made(usize),
+}
+
+impl RunBudget {
+    /// Runs with the same parameters at the start.
+    fn repeats(self, is_noisy: bool) -> usize {
+        match self {
+            Self::Made(_) if !is_noisy => 0,
+            _ => repeats::count(is_noisy),
+        }
+    }
+}
+
+/// At most so many runs of a case's simulator that are made all at once: those that fill the space, and of one
+/// that is noisy repeats with all inputs at their medians.
+///
+/// # Errors
+/// A case without a simulator; fewer runs than the start of a diagnosis takes.
+pub fn design(case: &Case, runs: usize, seed: u64) -> Result<Vec<RunKey>, OverrideError> {
+    let Some(simulator) = &case.simulator else {
+        return Err(refused("the case has no simulator".to_owned()));
+    };
+    let space = simulator.space();
+    let repeats = RunBudget::Made(runs).repeats(simulator.is_noisy());
+    let batches = Plan::filling(space, runs.saturating_sub(repeats), seed);
+    let batches = batches.map_err(|error| too_few(error, repeats))?;
+    let medians = space.values(&[], &vec![0.0; space.unknowns(&[]).len()]);
+    let again = (0..repeats).map(|repetition| RunKey { parameters: medians.clone(), repetition });
+    let values = |batch: &Batch| {
+        let values = batch.scores.iter().map(|scores| space.values(&batch.effects, scores));
+        values.map(RunKey::from).collect::<Vec<_>>()
+    };
+    Ok(again.chain(batches.iter().flat_map(values)).collect())
+}
+
+fn too_few(error: TooFewRuns, repeats: usize) -> OverrideError {
+    refused(TooFewRuns { least: error.least + repeats }.to_string())
 }
 
 /// A diagnosis with the runs that it took.
@@ -49,6 +99,8 @@ pub struct SimulatorDiagnosis {
     pub last: Vec<Run>,
     /// How many runs were used, and what is not known well enough.
     pub ending: Ending,
+    /// How the simulator's outputs scatter from run to run, of one that is noisy.
+    pub scatter: Option<Scatter>,
     known: Arc<KnownGap>,
 }
 
@@ -59,18 +111,20 @@ pub type MakeRuns<'m> = dyn FnMut(&[ParameterSet]) -> Vec<RunResult> + 'm;
 /// The share of the work that is done when the last run is made.
 const RUN: f64 = 0.8;
 
-/// Diagnoses a case with a simulator, of which `make` makes at most `budget` runs less those among `kept` that
-/// the plan asks for. `progress` is told the share that is done. Once `stop` is set no run is asked for, and
+/// Diagnoses a case with a simulator, of which `make` makes at most the runs of the budget less those among `kept`
+/// that the plan asks for. The first ones are repeats with all inputs at their medians, unless nothing can be run
+/// any more: they show that the simulator repeats, or if it is noisy how its outputs scatter. `progress` is told the share that is done. Once `stop` is set no run is asked for, and
 /// `make` may give back fewer than it was asked for: `None` where the last run was not made yet, else what is
 /// known, marked as interrupted.
 ///
 /// # Errors
 /// A case without a simulator, or one that cannot be diagnosed; a budget that is too small; kept runs of other
-/// parameters; runs with another number of values than there are rows; no run of the plain simulator.
+/// parameters; runs with another number of values than there are rows; no run of the plain simulator; a
+/// simulator that is not noisy and gives something else at the same parameters.
 pub fn diagnose(
     case: &Case,
     make: &mut MakeRuns<'_>,
-    budget: usize,
+    budget: RunBudget,
     kept: Runs,
     options: DiagnosisOptions,
     progress: &(dyn Fn(f64) + Sync),
@@ -80,11 +134,26 @@ pub fn diagnose(
     let Some(simulator) = &case.simulator else {
         return Err(refused("the case has no simulator".to_owned()));
     };
-    let runs = SimulatorRuns::new(simulator.space().clone(), case.simulator_units(), kept)?;
-    let mut plan = Plan::new(simulator.space().clone(), budget, options.seed)
-        .map_err(|error| refused(error.to_string()))?;
-    let mut simulation = Simulation::new(case, runs, options.seed, stop);
+    let is_noisy = simulator.is_noisy();
+    let (space, units) = (simulator.space(), case.simulator_units());
+    let mut runs = SimulatorRuns::new(space.clone(), units, kept, is_noisy)?;
+    let repeats = budget.repeats(is_noisy);
+    let planned = match budget {
+        RunBudget::Calls(runs) => runs.saturating_sub(repeats),
+        // a plan fills the space with a third of its runs, as a design does with all
+        RunBudget::Made(runs) => 3 * runs.saturating_sub(repeats),
+    };
+    let mut plan =
+        Plan::new(space.clone(), planned, options.seed).map_err(|error| too_few(error, repeats))?;
     let is_stopped = || stop.load(Ordering::Relaxed);
+    let start = match repeats {
+        0 => (Vec::new(), None),
+        _ => match repeats::start(case, &mut runs, is_noisy, make) {
+            Err(_) if is_stopped() => return Ok(None),
+            start => start?,
+        },
+    };
+    let mut simulation = Simulation::new(case, runs, start, options.seed, stop);
     let mut states = Vec::new();
     let ending = loop {
         match plan.next(std::mem::take(&mut states)) {
@@ -99,10 +168,10 @@ pub fn diagnose(
                         simulation.emulator.learn(&batch.effects, &made, batch.focus.clone());
                     plan.learnt(&batch, learnt.unseen.as_ref());
                 }
-                progress(RUN * plan.used() as f64 / budget as f64);
+                progress(RUN * plan.used() as f64 / planned as f64);
             }
             Step::Infer(asked) => states = simulation.inferred(asked)?,
-            Step::Done(ending) => break ending,
+            Step::Done(ending) => break Ending { runs: ending.runs + repeats, ..ending },
         }
     };
     let emulated = simulation.emulated()?;
@@ -115,11 +184,13 @@ pub fn diagnose(
     let named: Vec<usize> =
         case.candidates.iter().filter(is_named).filter_map(|of| of.simulator).collect();
     let unseen = simulation.emulator.unseen(&named).map(UnseenError::median);
-    let facts =
-        std::iter::once(notes::runs(ending.runs, unseen)).chain(simulation.runs.failed_note());
+    let scatter = simulation.emulator.scatter().cloned();
+    let facts = std::iter::once(notes::runs(ending.runs, unseen))
+        .chain(notes::scatter(case, scatter.as_ref(), repeats))
+        .chain(simulation.runs.failed_note());
     diagnosis.notes.extend(facts.map(|fact| DiagnosisNote { fact }));
     let SimulatorRuns { runs, last, .. } = simulation.runs;
-    Ok(Some(SimulatorDiagnosis { diagnosis, runs, last, ending, known: Arc::new(known) }))
+    Ok(Some(SimulatorDiagnosis { diagnosis, runs, last, ending, scatter, known: Arc::new(known) }))
 }
 
 /// Takes out the conditions that hold what the simulator gives.

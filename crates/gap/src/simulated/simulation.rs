@@ -2,7 +2,7 @@
 
 use std::sync::atomic::AtomicBool;
 
-use gumption_emulator::{Emulator, State};
+use gumption_emulator::{Emulator, Scatter, SimulatorRun, State};
 use gumption_inference::posterior::WeighedHypothesis;
 use gumption_inference::setup::Setup;
 use gumption_inference::simulator_states;
@@ -23,14 +23,17 @@ pub(super) struct Simulation<'c> {
 }
 
 impl<'c> Simulation<'c> {
-    /// One of which nothing is known but the runs that were kept.
+    /// One of which nothing is known but the runs at the start, those that were kept and how runs scatter.
     pub(super) fn new(
         case: &'c Case,
         runs: SimulatorRuns,
+        (start, scatter): (Vec<SimulatorRun>, Option<Scatter>),
         seed: u64,
         stop: &'c AtomicBool,
     ) -> Self {
-        let emulator = Emulator::new(runs.space.clone(), runs.units.len());
+        let mut emulator =
+            Emulator::new(runs.space.clone(), runs.units.len()).with_scatter(scatter);
+        emulator.learn(&[], &start, None);
         Self { case, runs, emulator, known: Vec::new(), seed, stop }
     }
 

@@ -11,7 +11,7 @@ use gumption_engine::special::normal;
 use gumption_engine::task::{Row, Task, Variable};
 use gumption_units::Unit;
 
-use crate::simulated::{ParameterSet, SimulatorDiagnosis, diagnose};
+use crate::simulated::{ParameterSet, RunBudget, SimulatorDiagnosis, diagnose};
 use crate::{
     Candidate, Case, DiagnosisOptions, Effect, HypothesisKind, ModelForm, ObservedOutput,
     OverridableModel, Prior, SimulatorModel, simulator_conditions,
@@ -27,7 +27,8 @@ const LENGTH: f64 = 0.6195;
 const RELEASE: f64 = 0.3995;
 
 /// The budget of runs.
-const BUDGET: usize = 150;
+const BUDGET: RunBudget = RunBudget::Calls(RUNS);
+const RUNS: usize = 150;
 
 /// A diagnosis that nobody stops.
 static NEVER: AtomicBool = AtomicBool::new(false);
@@ -187,7 +188,7 @@ fn the_loss_of_a_pendulum_is_named() {
     let verdict = &found.diagnosis.most_probable;
     assert_eq!(verdict.effects, ["pivot-friction"]);
     assert!(verdict.kind == HypothesisKind::Explained && verdict.probability > 0.8, "{verdict:?}");
-    assert!(count <= BUDGET && found.ending.open.is_empty(), "{count} {:?}", found.ending);
+    assert!(count <= RUNS && found.ending.open.is_empty(), "{count} {:?}", found.ending);
     assert_eq!(found.diagnosis.conditions.len(), 1);
     // the last runs are those of the simulator itself at the verdict: they leave the noise
     let last = found.last[0].result.as_ref().unwrap();
@@ -244,7 +245,8 @@ fn runs_that_fail_are_told_with_their_parameters() {
     let mut few = |_: &[ParameterSet]| Vec::new();
     let found = diagnose(&case, &mut few, BUDGET, no_runs(&case), options, &|_| {}, &NEVER);
     assert!(found.unwrap_err().to_string().contains("0 came back"));
-    let found = diagnose(&case, &mut few, 5, no_runs(&case), options, &|_| {}, &NEVER);
+    let found =
+        diagnose(&case, &mut few, RunBudget::Calls(5), no_runs(&case), options, &|_| {}, &NEVER);
     assert!(found.unwrap_err().to_string().contains("times at least"));
 }
 
