@@ -291,3 +291,43 @@ fn a_corrected_pendulum_is_predicted_where_it_was_not_measured() {
         assert!(error.abs() < 4.0 && u > 0.0 && u < U, "{error} {u}");
     }
 }
+
+/// A noisy program: to its angles normal numbers are added that follow from the number of the call, of so many u
+/// and with a correlation coefficient of neighbours.
+fn noisy(call: usize, set: &ParameterSet, scatter: f64, correlation: f64) -> Vec<f64> {
+    let mut uniforms = [0.0; 256];
+    StreamKey::new(7, "scatter").block(call as u64).uniform(&mut uniforms);
+    let mut before = 0.0;
+    let mut angles = run(set).unwrap();
+    for (row, (angle, uniform)) in angles.iter_mut().zip(uniforms).enumerate() {
+        let own = if row == 0 { 1.0 } else { (1.0 - correlation * correlation).sqrt() };
+        before = correlation * before + own * normal::quantile(uniform);
+        *angle += 1e3 * U * scatter * before;
+    }
+    angles
+}
+
+#[test]
+#[ignore]
+fn explore() {
+    let env = |name: &str, default: f64| std::env::var(name).map_or(default, |v| v.parse().unwrap());
+    let (s, rho, drag, pivot) = (env("S", 0.3), env("RHO", 0.0), env("DRAG", 0.0), env("PIVOT", 3e-4));
+    let runs = env("RUNS", 150.0) as usize;
+    let mut case = pendulum(drag, pivot, &BOTH);
+    let model = SimulatorModel::new(case.simulator.as_ref().unwrap().space().clone());
+    case.simulator = Some(Arc::new(model.noisy(s > 0.0)));
+    let mut count = 0;
+    let mut make = |sets: &[ParameterSet]| {
+        let mut one = |set: &ParameterSet| { count += 1; Ok(noisy(count, set, s, rho)) };
+        sets.iter().map(&mut one).collect()
+    };
+    let options = DiagnosisOptions::new(1);
+    let start = std::time::Instant::now();
+    let of = diagnose(&case, &mut make, RunBudget::Calls(runs), no_runs(&case), options, &|_| {}, &NEVER);
+    let of = of.unwrap().unwrap();
+    let d = &of.diagnosis;
+    eprintln!("s={s} rho={rho} drag={drag} pivot={pivot} runs={count} time={:?}", start.elapsed());
+    eprintln!("  verdict {:?} {:?} p={} scatter {:?}", d.most_probable.kind, d.most_probable.effects, d.most_probable.probability, of.scatter);
+    eprintln!("  open {:?}", of.ending.open);
+    for e in &d.present { for q in &e.parameters { eprintln!("  {q:?}"); } }
+}
