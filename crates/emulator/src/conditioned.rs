@@ -27,8 +27,8 @@ pub(crate) struct Conditioned {
     trend: Vec<Vec<f64>>,
     /// The Cholesky root of their products with each other.
     trend_root: Vec<f64>,
-    /// The variance of all functions, where it is not that of the greatest likelihood.
-    variance: Option<f64>,
+    /// Where the values scatter.
+    nugget: Option<Nugget>,
 }
 
 /// A scatter of the first values about the function.
@@ -81,8 +81,7 @@ impl Conditioned {
             trend_root.push(dot(&trend[i], &trend[i]) * (1.0 + RIDGE));
         }
         packed::cholesky_of_definite(&mut trend_root);
-        let variance = nugget.map(|nugget| nugget.scatter.variance / nugget.share);
-        Self { points, inverse_squares, root, trend, trend_root, variance }
+        Self { points, inverse_squares, root, trend, trend_root, nugget }
     }
 
     /// The function with these values at the points.
@@ -97,7 +96,8 @@ impl Conditioned {
         }
         let squares = dot(&residual, &residual);
         let likeliest = squares / values.len().max(1) as f64 + LEAST_VARIANCE;
-        let variance = self.variance.unwrap_or(likeliest);
+        let known = self.nugget.map(|nugget| nugget.scatter.variance / nugget.share);
+        let variance = known.unwrap_or(likeliest);
         packed::solve_transposed(&self.root, &mut residual);
         Target { weights: residual, trend, variance, squares }
     }
@@ -122,15 +122,34 @@ impl Conditioned {
 
     /// The variance, relative to that of a target, that the points leave at one with these correlations to
     /// them.
-    pub(crate) fn left(&self, mut correlations: Vec<f64>, point: &[f64]) -> f64 {
+    pub(crate) fn left(&self, correlations: Vec<f64>, point: &[f64]) -> f64 {
+        let (known, unknown) = self.whitened(correlations, point);
+        (1.0 - dot(&known, &known)).max(NUGGET) + dot(&unknown, &unknown)
+    }
+
+    /// The variance of the value at a point with these correlations to those known that comes from their
+    /// scatter.
+    pub(crate) fn scattered(&self, correlations: Vec<f64>, point: &[f64]) -> f64 {
+        let Some(Nugget { scatter, .. }) = self.nugget else { return 0.0 };
+        let (mut weights, mut factors) = self.whitened(correlations, point);
+        packed::solve_transposed(&self.trend_root, &mut factors);
+        for (factor, of) in factors.iter().zip(&self.trend) {
+            add_multiple(&mut weights, *factor, of);
+        }
+        packed::solve_transposed(&self.root, &mut weights);
+        let own = &weights[..scatter.count.min(weights.len())];
+        scatter.variance * dot(own, own)
+    }
+
+    /// Correlations with the points, and what is left of the functions of the trend at a point, both whitened.
+    fn whitened(&self, mut correlations: Vec<f64>, point: &[f64]) -> (Vec<f64>, Vec<f64>) {
         packed::solve(&self.root, &mut correlations);
-        let known = dot(&correlations, &correlations);
         let count = self.trend.len();
         let trend = functions(count, point).zip(&self.trend);
         let mut unknown: Vec<f64> =
             trend.map(|(function, of)| function - dot(of, &correlations)).collect();
         packed::solve(&self.trend_root, &mut unknown);
-        (1.0 - known).max(NUGGET) + dot(&unknown, &unknown)
+        (correlations, unknown)
     }
 }
 

@@ -19,7 +19,8 @@ pub struct Correction {
 
 impl Correction {
     /// Learns the corrections of some runs, at least one: `points` are scaled coordinates, each with the
-    /// correction of every row; `reach` is that of the layer that knows all of the prior.
+    /// correction of every row. Where runs scatter there is no local layer, as runs near each other show little but
+    /// their scatter; `reach` is that of the layer that knows all of the prior.
     pub fn learn(
         points: &[Vec<f64>],
         corrections: &[Vec<f64>],
@@ -27,7 +28,7 @@ impl Correction {
         focus: Option<&Focus>,
         scatter: Option<&Scatter>,
     ) -> Self {
-        let focus = focus.filter(|focus| focus.is_narrow());
+        let focus = focus.filter(|focus| focus.is_narrow() && scatter.is_none());
         let learn = |reach: &Reach<'_>| Layer::learn(points, corrections, reach, scatter);
         let near = focus.map(|focus| learn(&Reach::Near(focus)));
         Self { everywhere: learn(reach), near }

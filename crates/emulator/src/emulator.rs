@@ -176,10 +176,11 @@ impl Emulator {
         let vectors = self.serving(effects, &points[0]);
         let vectors = vectors.flat_map(|(_, _, layer)| layer.directions().to_vec());
         let directions = SingularVectors::of(&vectors.collect::<Vec<_>>(), SAME);
-        let unknown = points.iter().flat_map(|point| {
-            self.serving(effects, point).flat_map(|(own, share, layer)| layer.unknown(&own, share))
+        let scattered = points.iter().flat_map(|point| {
+            self.serving(effects, point)
+                .flat_map(|(own, share, layer)| layer.scattered(&own, share))
         });
-        UnseenError::of_mean(errors, &directions, unknown.collect(), scatter)
+        UnseenError::of_mean(errors, &directions, scattered.collect(), scatter)
     }
 
     /// The layers that serve at a point of a hypothesis, each with its part of the point and its share.
@@ -196,14 +197,12 @@ impl Emulator {
     }
 
     /// The standard deviations that the scatter of the runs leaves in the mean of each row, in u; `None` of a
-    /// simulator without scatter, or of which nothing is known. It is that of the layer with the fewest runs: of
-    /// the plain simulator, or near a posterior.
+    /// simulator without scatter, or of which nothing is known. It is that of the mean of the plain simulator's
+    /// runs; what corrections leave is along their singular vectors.
     pub fn left_by_scatter(&self) -> Option<Vec<f64>> {
         let scatter = self.scatter.as_ref()?;
         let plain = self.correction(&[])?.everywhere().runs();
-        let near = self.known.values().filter_map(|known| known.correction.as_ref()?.near());
-        let runs = near.map(Layer::runs).fold(plain, usize::min);
-        Some(scatter.of_mean(self.rows, runs))
+        Some(scatter.of_mean(self.rows, plain))
     }
 
     fn learn_correction(&mut self, effects: &[usize]) {

@@ -7,7 +7,7 @@ use crate::focus::Focus;
 use crate::frame::Frame;
 use crate::lengths::{ValueScatter, likeliest_lengths, scattered_lengths};
 use crate::prediction::Prediction;
-use crate::process::{Coefficient, GaussianProcess};
+use crate::process::GaussianProcess;
 use crate::scatter::Scatter;
 use crate::singular::SingularVectors;
 use crate::trend::Trend;
@@ -62,7 +62,8 @@ impl Layer {
         scatter: Option<&Scatter>,
     ) -> Self {
         let places = match reach {
-            Reach::Near(focus) => {
+            // few runs near a posterior would show little but their scatter
+            Reach::Near(focus) if scatter.is_none() => {
                 focus.nearest(points, (NEAREST * points[0].len()).max(LEAST_NEAREST))
             }
             _ => (0..points.len()).collect(),
@@ -147,16 +148,16 @@ impl Layer {
         self.runs
     }
 
-    /// What it does not know at a point: along each singular vector a standard deviation, with the root of a
+    /// What the scatter of the runs leaves at a point: along each singular vector a standard deviation, with a
     /// share.
-    pub(crate) fn unknown(&self, point: &[Coordinate], share: f64) -> Vec<Vec<f64>> {
+    pub(crate) fn scattered(&self, point: &[Coordinate], share: f64) -> Vec<Vec<f64>> {
         let (_, at) = self.framed(point);
-        let coefficients = self.processes.iter().flat_map(|process| process.predict(&at));
-        let of = |(coefficient, vector): (Coefficient, &Vec<f64>)| {
-            let size = share.sqrt() * coefficient.deviation;
-            vector.iter().map(|entry| size * entry).collect()
+        let deviations =
+            self.processes.iter().flat_map(|process| process.scattered_deviations(&at));
+        let of = |(deviation, vector): (f64, &Vec<f64>)| {
+            vector.iter().map(|entry| share * deviation * entry).collect()
         };
-        coefficients.zip(&self.vectors).map(of).collect()
+        deviations.zip(&self.vectors).map(of).collect()
     }
 
     /// How far a point is among the runs that a local layer learnt from, from 0 to 1, and the derivatives of

@@ -74,6 +74,16 @@ impl GaussianProcess {
         self.targets.iter().map(|target| target.value(point, &correlations)).collect()
     }
 
+    /// The standard deviation of the value of each function at a point that comes from the scatter of the values
+    /// that it was learnt from.
+    pub(crate) fn scattered_deviations(&self, point: &[f64]) -> Vec<f64> {
+        let Conditioned { points, inverse_squares, .. } = &self.conditioned;
+        let correlations =
+            points.iter().map(|known| correlation(point, known, inverse_squares).value);
+        let variance = self.conditioned.scattered(correlations.collect(), point);
+        vec![variance.sqrt(); self.targets.len()]
+    }
+
     /// The expected value of each function at a point, its gradient and its standard deviation.
     pub fn predict(&self, point: &[f64]) -> Vec<Coefficient> {
         let Conditioned { points, inverse_squares, .. } = &self.conditioned;

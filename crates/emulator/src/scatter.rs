@@ -58,6 +58,13 @@ impl Scatter {
         parts.map(|(part, output)| output.along(part)).sum()
     }
 
+    /// What it typically has along a direction, in u: the root mean square over the outputs of a deviation, times the
+    /// root of the values that count as one where they are correlated.
+    pub(crate) fn size(&self) -> f64 {
+        let squares = self.outputs.iter().map(|output| output.variance() * output.together());
+        (squares.sum::<f64>() / self.outputs.len() as f64).sqrt()
+    }
+
     /// The sum of the variances of so many values, in u².
     pub(crate) fn total(&self, values: usize) -> f64 {
         self.sum(values, OutputScatter::variance)
@@ -71,10 +78,8 @@ impl Scatter {
         if total == 0.0 {
             return 0.0;
         }
-        let squares = self.sum(values, |output| {
-            let square = output.correlation * output.correlation;
-            output.variance() * output.variance() * (1.0 + square) / (1.0 - square)
-        });
+        let squares =
+            self.sum(values, |output| output.variance() * output.variance() * output.together());
         let independent = total * total / squares;
         let factor = 1.0 + (independent / runs as f64).sqrt();
         total / independent * factor * factor
@@ -112,6 +117,12 @@ impl OutputScatter {
                 0.0
             },
         }
+    }
+
+    /// How many of many correlated values count as one, by the sum of the squares of their correlations.
+    fn together(&self) -> f64 {
+        let square = self.correlation * self.correlation;
+        (1.0 + square) / (1.0 - square)
     }
 
     fn variance(&self) -> f64 {

@@ -27,12 +27,13 @@ impl UnseenError {
 
     /// Of a simulator whose runs scatter, for what is not known of its mean: of the errors of all rows of some
     /// runs, at least one, along directions in which the mean may be wrong. From each norm is taken what the
-    /// scatter has there. The covariance is what is `unknown` of the mean at each run, columns of factors, and
+    /// scatter has there. The covariance is what the scatter leaves in the mean at the runs, columns of factors `scattered` of all of
+    /// them, and
     /// what of the errors is beyond what the scatter alone shows along any direction.
     pub(crate) fn of_mean(
         errors: &[Vec<f64>],
         directions: &SingularVectors,
-        unknown: Vec<Vec<f64>>,
+        scattered: Vec<Vec<f64>>,
         scatter: &Scatter,
     ) -> Self {
         let runs = errors.len() as f64;
@@ -56,7 +57,7 @@ impl UnseenError {
         });
         let mut columns: Vec<Vec<f64>> = beyond.collect();
         let share = 1.0 / runs.sqrt();
-        columns.extend(unknown.into_iter().map(|of| of.iter().map(|v| share * v).collect()));
+        columns.extend(scattered.into_iter().map(|of| of.iter().map(|v| share * v).collect()));
         // the mean square over the columns times their number is their sum
         let count = (columns.len() as f64).sqrt();
         columns.iter_mut().flatten().for_each(|entry| *entry *= count);

@@ -80,7 +80,11 @@ impl<'c> Simulation<'c> {
         let states = asked.iter().filter_map(|effects| {
             let own = |of: &&WeighedHypothesis| case.simulator_effects(&of.effects) == *effects;
             let own: Vec<&WeighedHypothesis> = found.iter().filter(own).collect();
-            simulator_states::state(&setup, &own)
+            let state = simulator_states::state(&setup, &own)?;
+            Some(match self.emulator.scatter() {
+                Some(scatter) => state.widened(scatter),
+                None => state,
+            })
         });
         let states = states.collect();
         self.known.retain(|old| !found.iter().any(|new| new.effects == old.effects));

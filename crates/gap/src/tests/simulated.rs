@@ -310,24 +310,44 @@ fn noisy(call: usize, set: &ParameterSet, scatter: f64, correlation: f64) -> Vec
 #[test]
 #[ignore]
 fn explore() {
-    let env = |name: &str, default: f64| std::env::var(name).map_or(default, |v| v.parse().unwrap());
-    let (s, rho, drag, pivot) = (env("S", 0.3), env("RHO", 0.0), env("DRAG", 0.0), env("PIVOT", 3e-4));
+    let env =
+        |name: &str, default: f64| std::env::var(name).map_or(default, |v| v.parse().unwrap());
+    let (s, rho, drag, pivot) =
+        (env("S", 0.3), env("RHO", 0.0), env("DRAG", 0.0), env("PIVOT", 3e-4));
     let runs = env("RUNS", 150.0) as usize;
     let mut case = pendulum(drag, pivot, &BOTH);
     let model = SimulatorModel::new(case.simulator.as_ref().unwrap().space().clone());
     case.simulator = Some(Arc::new(model.noisy(s > 0.0)));
     let mut count = 0;
     let mut make = |sets: &[ParameterSet]| {
-        let mut one = |set: &ParameterSet| { count += 1; Ok(noisy(count, set, s, rho)) };
+        let mut one = |set: &ParameterSet| {
+            count += 1;
+            Ok(noisy(count, set, s, rho))
+        };
         sets.iter().map(&mut one).collect()
     };
     let options = DiagnosisOptions::new(1);
     let start = std::time::Instant::now();
-    let of = diagnose(&case, &mut make, RunBudget::Calls(runs), no_runs(&case), options, &|_| {}, &NEVER);
+    let of = diagnose(
+        &case,
+        &mut make,
+        RunBudget::Calls(runs),
+        no_runs(&case),
+        options,
+        &|_| {},
+        &NEVER,
+    );
     let of = of.unwrap().unwrap();
     let d = &of.diagnosis;
     eprintln!("s={s} rho={rho} drag={drag} pivot={pivot} runs={count} time={:?}", start.elapsed());
-    eprintln!("  verdict {:?} {:?} p={} scatter {:?}", d.most_probable.kind, d.most_probable.effects, d.most_probable.probability, of.scatter);
+    eprintln!(
+        "  verdict {:?} {:?} p={} scatter {:?}",
+        d.most_probable.kind, d.most_probable.effects, d.most_probable.probability, of.scatter
+    );
     eprintln!("  open {:?}", of.ending.open);
-    for e in &d.present { for q in &e.parameters { eprintln!("  {q:?}"); } }
+    for e in &d.present {
+        for q in &e.parameters {
+            eprintln!("  {q:?}");
+        }
+    }
 }
