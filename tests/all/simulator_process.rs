@@ -557,6 +557,51 @@ print(answer(text))",
     assert_eq!(all.lines().count(), log(&folder).len());
 }
 
+/// A program that adds a pattern to its angles, which depends on how often it was started: some 0.25 u.
+const NOISY: &str = "log('run')
+calls = len(open(os.path.join(os.path.dirname(__file__), 'log')).readlines())
+angles = json.loads(answer(sys.stdin.read()))['angle']
+angles = [a + 0.2*math.sin(977.0*(calls*61 + row + 1)**2) for row, a in enumerate(angles)]
+print(json.dumps({'angle': angles}))";
+
+#[test]
+fn a_noisy_program_is_repeated_and_its_repeats_are_kept() {
+    let folder = pendulum(NOISY);
+    let arguments = ["--simulator", "python3 sim.py", "--keep", "runs", "--threads", "1"];
+    let done = gap(&folder, &arguments).output().unwrap();
+    assert_eq!(done.status.code(), Some(1));
+    let said = String::from_utf8(done.stderr).unwrap();
+    assert!(said.contains("does not repeat") && said.contains("`\"noisy\": true`"), "{said}");
+    assert_eq!(log(&folder).len(), 2);
+    // said to be noisy it goes on with the runs that are there
+    let case = CASE.replace("\"angle\": \"mrad\"}}", "\"angle\": \"mrad\"}, \"noisy\": true}");
+    fs::write(folder.path().join("case.json"), case).unwrap();
+    let (first, _) = diagnosed(&folder, &arguments);
+    assert_drag(&first);
+    let note =
+        first["notes"].as_array().unwrap().iter().find(|note| {
+            note["message"].as_str().is_some_and(|text| text.contains("scatters by 0.2"))
+        });
+    assert!(note.is_some(), "{}", first["notes"]);
+    let file = folder.path().join("runs/runs.jsonl");
+    let kept = fs::read_to_string(&file).unwrap();
+    for repetition in 1..4 {
+        assert!(kept.contains(&format!("\"repetition\":{repetition}}}")), "{kept}");
+    }
+    let runs = log(&folder).len();
+    assert!(kept.lines().count() == runs + 1 && runs <= 40);
+    // a diagnosis that was interrupted in the midst of the repeats makes none again
+    let half: Vec<&str> = kept.lines().take(runs / 2).collect();
+    let (again, _) = diagnosed(&folder, &arguments);
+    assert_eq!((&again, log(&folder).len()), (&first, runs));
+    fs::write(&file, half.join("\n") + "\n").unwrap();
+    diagnosed(&folder, &arguments);
+    assert_eq!(
+        log(&folder).len(),
+        runs + fs::read_to_string(&file).unwrap().lines().count() - half.len()
+    );
+}
+
 #[test]
 fn runs_are_designed_and_made_elsewhere() {
     let folder = pendulum("print(answer(sys.stdin.read()))");

@@ -3,7 +3,7 @@
 use std::sync::Arc;
 use std::sync::atomic::AtomicBool;
 
-use gumption_emulator::{Parameter, Runs, SimulatorEffect, Space};
+use gumption_emulator::{Parameter, Run, RunKey, Runs, SimulatorEffect, Space};
 use gumption_engine::distribution::{Distribution, LogUniform, Normal, Rectangular, StreamKey};
 use gumption_engine::model::formula::{Scope, Typing};
 use gumption_engine::model::{InputQuantity, NumberForm, Output, Quantity};
@@ -11,7 +11,7 @@ use gumption_engine::special::normal;
 use gumption_engine::task::{Row, Task, Variable};
 use gumption_units::Unit;
 
-use crate::simulated::{ParameterSet, RunBudget, SimulatorDiagnosis, diagnose};
+use crate::simulated::{ParameterSet, RunBudget, SimulatorDiagnosis, design, diagnose};
 use crate::{
     Candidate, Case, DiagnosisOptions, Effect, HypothesisKind, ModelForm, ObservedOutput,
     OverridableModel, Prior, SimulatorModel, simulator_conditions,
@@ -27,8 +27,11 @@ const LENGTH: f64 = 0.6195;
 const RELEASE: f64 = 0.3995;
 
 /// The budget of runs.
-const BUDGET: RunBudget = RunBudget::Calls(RUNS);
 const RUNS: usize = 150;
+const BUDGET: RunBudget = RunBudget::Calls(RUNS);
+
+/// The same of the noisy program.
+const NOISY_RUNS: usize = 100;
 
 /// A diagnosis that nobody stops.
 static NEVER: AtomicBool = AtomicBool::new(false);
@@ -307,47 +310,120 @@ fn noisy(call: usize, set: &ParameterSet, scatter: f64, correlation: f64) -> Vec
     angles
 }
 
-#[test]
-#[ignore]
-fn explore() {
-    let env =
-        |name: &str, default: f64| std::env::var(name).map_or(default, |v| v.parse().unwrap());
-    let (s, rho, drag, pivot) =
-        (env("S", 0.3), env("RHO", 0.0), env("DRAG", 0.0), env("PIVOT", 3e-4));
-    let runs = env("RUNS", 150.0) as usize;
-    let mut case = pendulum(drag, pivot, &BOTH);
+/// The diagnosis of a case by the noisy program, and how many runs were made for it.
+fn diagnosed_noisy(case: &mut Case, scatter: f64) -> (SimulatorDiagnosis, usize) {
     let model = SimulatorModel::new(case.simulator.as_ref().unwrap().space().clone());
-    case.simulator = Some(Arc::new(model.noisy(s > 0.0)));
+    case.simulator = Some(Arc::new(model.noisy(true)));
     let mut count = 0;
-    let mut make = |sets: &[ParameterSet]| {
-        let mut one = |set: &ParameterSet| {
-            count += 1;
-            Ok(noisy(count, set, s, rho))
-        };
-        sets.iter().map(&mut one).collect()
+    let mut one = |set: &ParameterSet| {
+        count += 1;
+        Ok(noisy(count, set, scatter, 0.0))
     };
+    let mut make = |sets: &[ParameterSet]| sets.iter().map(&mut one).collect();
     let options = DiagnosisOptions::new(1);
-    let start = std::time::Instant::now();
     let of = diagnose(
-        &case,
+        case,
         &mut make,
-        RunBudget::Calls(runs),
-        no_runs(&case),
+        RunBudget::Calls(NOISY_RUNS),
+        no_runs(case),
         options,
         &|_| {},
         &NEVER,
     );
-    let of = of.unwrap().unwrap();
-    let d = &of.diagnosis;
-    eprintln!("s={s} rho={rho} drag={drag} pivot={pivot} runs={count} time={:?}", start.elapsed());
-    eprintln!(
-        "  verdict {:?} {:?} p={} scatter {:?}",
-        d.most_probable.kind, d.most_probable.effects, d.most_probable.probability, of.scatter
-    );
-    eprintln!("  open {:?}", of.ending.open);
-    for e in &d.present {
-        for q in &e.parameters {
-            eprintln!("  {q:?}");
-        }
+    (of.unwrap().unwrap(), count)
+}
+
+/// How often a note with this key was given.
+fn notes(of: &SimulatorDiagnosis, code: &str) -> usize {
+    of.diagnosis.notes.iter().filter(|note| note.fact.key == code).count()
+}
+
+/// The program scatters by 0.3 u in each row: the friction is named, and its interval of 0.95, twice as wide as it
+/// is, holds the truth. The scatter is known to 1/sqrt(2*3*250) = 2.6 %, of which four times are allowed.
+#[test]
+fn the_loss_of_a_noisy_pendulum_is_named() {
+    let mut case = pendulum(0.0, 3e-4, &BOTH);
+    let (found, count) = diagnosed_noisy(&mut case, 0.3);
+    let verdict = &found.diagnosis.most_probable;
+    assert_eq!(verdict.effects, ["pivot-friction"]);
+    assert!(verdict.kind == HypothesisKind::Explained && verdict.probability > 0.8, "{verdict:?}");
+    let pivot = &found.diagnosis.present[0].parameters[0];
+    let [lower, upper] = pivot.interval;
+    let half = 0.5 * (upper - lower);
+    assert!((pivot.estimate - 3e-4).abs() < 2.0 * half && half < 1e-5, "{pivot:?}");
+    let scatter = found.scatter.as_ref().unwrap().outputs()[0];
+    assert!((scatter.deviation - 0.3).abs() < 0.1 * 0.3 && scatter.correlation == 0.0);
+    assert_eq!(notes(&found, "simulator.scatter"), 1);
+    assert!(count <= NOISY_RUNS && found.ending.runs == count, "{count} {:?}", found.ending);
+    let repeats = found.runs.made().iter().filter(|run| run.repetition > 0).count();
+    assert!(repeats >= 3, "{repeats}");
+}
+
+/// Data without a gap raise no alarm, though the program scatters as much as they do.
+#[test]
+fn a_noisy_pendulum_without_a_gap_raises_no_alarm() {
+    let mut case = pendulum(0.0, 0.0, &BOTH);
+    let (found, _) = diagnosed_noisy(&mut case, 1.0);
+    let verdict = &found.diagnosis.most_probable;
+    assert!(verdict.kind == HypothesisKind::None && verdict.probability > 0.8, "{verdict:?}");
+}
+
+/// A program that gives something else again is an error if it is not said to be noisy: 1 u in one row, and
+/// none where the difference is below 0.05 u in norm.
+#[test]
+fn a_program_that_does_not_repeat_is_an_error() {
+    let case = pendulum(0.0, 3e-4, &BOTH);
+    let said = |difference: f64| {
+        let mut count = 0;
+        let mut one = |set: &ParameterSet| {
+            let mut angles = run(set)?;
+            angles[41] += 1e3 * U * difference * f64::from(count);
+            // the second run is the repeat, and those after it are all alike
+            count = if count == 0 { 1 } else { 0 };
+            Ok(angles)
+        };
+        let mut make = |sets: &[ParameterSet]| sets.iter().map(&mut one).collect();
+        let options = DiagnosisOptions::new(1);
+        let budget = RunBudget::Calls(60);
+        diagnose(&case, &mut make, budget, no_runs(&case), options, &|_| {}, &NEVER)
+            .map_err(|error| error.to_string())
+    };
+    let error = said(1.0).unwrap_err();
+    for part in ["differ by 1.0 standard", "`angle` in row 42", "\"noisy\": true", "noisy=True"] {
+        assert!(error.contains(part), "{error}");
     }
+    let found = said(0.04).unwrap().unwrap();
+    assert_eq!(notes(&found, "simulator.scatter"), 0);
+}
+
+/// Runs that were made elsewhere, as a design has them: nothing is repeated, unless the program is noisy.
+#[test]
+fn runs_made_before_are_not_repeated() {
+    let mut case = pendulum(0.0, 3e-4, &BOTH);
+    let asked = |case: &Case, scatter: f64| {
+        let mut kept = no_runs(case);
+        for (call, RunKey { parameters, repetition }) in
+            design(case, 40, 1).unwrap().into_iter().enumerate()
+        {
+            let names = case.simulator.as_ref().unwrap().space().names().into();
+            let set = ParameterSet { names, values: parameters.clone(), repetition };
+            let result = Ok(noisy(call, &set, scatter, 0.0));
+            kept.keep(Run { parameters, repetition, result }).unwrap();
+        }
+        let mut asked = 0;
+        let mut make = |sets: &[ParameterSet]| {
+            asked += sets.iter().filter(|set| set.repetition > 0).count();
+            vec![Err("the run was not made".to_owned()); sets.len()]
+        };
+        let (budget, options) = (RunBudget::Made(40), DiagnosisOptions::new(1));
+        let of = diagnose(case, &mut make, budget, kept, options, &|_| {}, &NEVER);
+        let repeats = of.unwrap().unwrap().scatter.map(|scatter| scatter.outputs()[0].deviation);
+        (asked, repeats)
+    };
+    assert_eq!(asked(&case, 0.0), (0, None));
+    let model = SimulatorModel::new(case.simulator.as_ref().unwrap().space().clone());
+    case.simulator = Some(Arc::new(model.noisy(true)));
+    let (_, scatter) = asked(&case, 0.3);
+    // as above
+    assert!((scatter.unwrap() - 0.3).abs() < 0.1 * 0.3, "{scatter:?}");
 }
