@@ -103,7 +103,6 @@ def test_runs_of_a_frame() -> None:
             {"y": [[1], [2]]},
             "the parameter 'a' of run 2 is nan, but must be a finite number",
         ),
-        ({"a": [1, 2, 1]}, {"y": [[1], [2], [3]]}, "the runs 1 and 3 have the same parameters"),
         (
             {"a": [1, 2]},
             {"y": [1, 2]},
@@ -271,6 +270,24 @@ def test_what_a_simulator_can_do_wrong(wrong: Any, said: str) -> None:
 
     with pytest.raises(OSError, match=f"no run of the plain simulator succeeded: rate = .*: {said}"):
         gu.diagnose(simulator, **given())
+
+
+def test_a_simulator_that_does_not_repeat_is_asked_about() -> None:
+    scatter = np.random.default_rng(5)
+
+    def simulator(conditions: Any, **parameters: float) -> Any:
+        found = cooling(conditions, **parameters)["T"]
+        return {"T": found + scatter.normal(0, 0.05, len(found))}
+
+    with pytest.raises(OSError, match="does not repeat: two runs with all inputs at their medians"):
+        gu.diagnose(simulator, **given())
+    found = gu.diagnose(simulator, **given(noisy=True, runs=120))
+    assert found.verdict["effects"] == ["gain-error"]
+    # half of u = 0.1 K
+    assert any("scatter" in note for note in found.notes)
+    twice = runs({"rate": [0.2, 0.2], "gain": [0, 0], "stray": [0, 0]}, {"T": [T, T + 1]})
+    with pytest.raises(OSError, match="does not repeat: two runs at rate = 0.2 1/min, gain = 0.0"):
+        gu.diagnose(twice, **given())
 
 
 def test_some_runs_may_fail() -> None:

@@ -11,7 +11,7 @@ use std::time::Duration;
 
 use gumption_command::simulator::{KeptRuns, Program, design, made};
 use gumption_emulator::{
-    RunResult, Simulator, SimulatorCase, SimulatorCondition, SimulatorQuantity,
+    RunKey, RunResult, Simulator, SimulatorCase, SimulatorCondition, SimulatorQuantity,
 };
 use serde_json::Value;
 use tempfile::TempDir;
@@ -66,7 +66,7 @@ fn log(folder: &TempDir) -> Vec<String> {
 }
 
 fn results(simulator: &dyn Simulator, batch: &[[f64; 2]]) -> Vec<Option<RunResult>> {
-    let batch: Vec<Vec<f64>> = batch.iter().map(|parameters| parameters.to_vec()).collect();
+    let batch: Vec<RunKey> = batch.iter().map(|of| of.to_vec().into()).collect();
     KeptRuns::in_memory(case()).results(simulator, &batch).unwrap()
 }
 
@@ -266,7 +266,7 @@ fn an_interrupted_diagnosis_goes_on_where_it_was() {
     let program = python(&folder, LOGGED);
     let (mut first, notes) = kept(&runs);
     assert!(notes.is_empty());
-    let batch = [vec![0.5, 0.1], vec![0.5, 9.0], vec![0.5, 0.1]];
+    let batch = [vec![0.5, 0.1], vec![0.5, 9.0], vec![0.5, 0.1]].map(RunKey::from);
     let before = first.results(&program, &batch).unwrap();
     assert_eq!((&before[0], &before[2]), (&Some(expected(0.5, 0.1)), &before[0]));
     assert_eq!(log(&folder).len(), 2);
@@ -282,7 +282,7 @@ fn an_interrupted_diagnosis_goes_on_where_it_was() {
     let (mut second, notes) = kept(&runs);
     let note = format!("the last line of `{}` is damaged and is dropped", file.display());
     assert_eq!(notes, [note]);
-    let batch = [vec![0.5, 9.0], vec![0.6, 0.2], vec![0.5, 0.1]];
+    let batch = [vec![0.5, 9.0], vec![0.6, 0.2], vec![0.5, 0.1]].map(RunKey::from);
     let after = second.results(&program, &batch).unwrap();
     let stalled = "it ended with exit code 1; its standard error ends with: stalled";
     let stalled = Some(Err(stalled.to_owned()));
@@ -310,7 +310,7 @@ fn runs_of_another_case_and_damaged_runs_are_errors() {
     let file = folder.path().join("runs.jsonl");
     let simulator = |of: &[f64], _: &SimulatorCase| expected(of[0], of[1]);
     let (mut runs, _) = kept(folder.path());
-    runs.results(&simulator, &[vec![0.5, 0.1], vec![0.5, 0.2]]).unwrap();
+    runs.results(&simulator, &[vec![0.5, 0.1], vec![0.5, 0.2]].map(RunKey::from)).unwrap();
     drop(runs);
     let failure = |case| kept_failure(folder.path(), case);
     let start = format!("gumption: `{}`: its runs are of another case: ", file.display());
@@ -360,7 +360,7 @@ fn a_stop_ends_the_running_programs_and_keeps_the_others() {
             stop.store(true, Ordering::Relaxed);
         }
     });
-    let batch = [vec![0.5, 8.0], vec![0.5, 0.1]];
+    let batch = [vec![0.5, 8.0], vec![0.5, 0.1]].map(RunKey::from);
     let found = runs.results(&program, &batch).unwrap();
     watch.join().unwrap();
     assert_eq!(found, [None, Some(expected(0.5, 0.1))]);
@@ -420,7 +420,7 @@ fn kept_runs_are_read_as_runs_that_were_made() {
     let folder = tempfile::tempdir().unwrap();
     let simulator = |of: &[f64], _: &SimulatorCase| expected(of[0], of[1]);
     let (mut runs, _) = kept(folder.path());
-    runs.results(&simulator, &[vec![0.5, 0.1]]).unwrap();
+    runs.results(&simulator, &[vec![0.5, 0.1].into()]).unwrap();
     let found = made(folder.path(), &case()).unwrap();
     assert_eq!((&found.runs, found.notes.len()), (runs.runs(), 0));
 }
@@ -551,6 +551,51 @@ print(answer(text))",
     assert!(all.starts_with(&kept));
     // the heading stands for the run that was ended
     assert_eq!(all.lines().count(), log(&folder).len());
+}
+
+/// A program that adds a pattern to its angles, which depends on how often it was started: some 0.25 u.
+const NOISY: &str = "log('run')
+calls = len(open(os.path.join(os.path.dirname(__file__), 'log')).readlines())
+angles = json.loads(answer(sys.stdin.read()))['angle']
+angles = [a + 0.2*math.sin(977.0*(calls*61 + row + 1)**2) for row, a in enumerate(angles)]
+print(json.dumps({'angle': angles}))";
+
+#[test]
+fn a_noisy_program_is_repeated_and_its_repeats_are_kept() {
+    let folder = pendulum(NOISY);
+    let arguments = ["--simulator", "python3 sim.py", "--keep", "runs", "--threads", "1"];
+    let done = gap(&folder, &arguments).output().unwrap();
+    assert_eq!(done.status.code(), Some(1));
+    let said = String::from_utf8(done.stderr).unwrap();
+    assert!(said.contains("does not repeat") && said.contains("`\"noisy\": true`"), "{said}");
+    assert_eq!(log(&folder).len(), 2);
+    // said to be noisy it goes on with the runs that are there
+    let case = CASE.replace("\"angle\": \"mrad\"}}", "\"angle\": \"mrad\"}, \"noisy\": true}");
+    fs::write(folder.path().join("case.json"), case).unwrap();
+    let (first, _) = diagnosed(&folder, &arguments);
+    assert_drag(&first);
+    let note =
+        first["notes"].as_array().unwrap().iter().find(|note| {
+            note["message"].as_str().is_some_and(|text| text.contains("scatters by 0.2"))
+        });
+    assert!(note.is_some(), "{}", first["notes"]);
+    let file = folder.path().join("runs/runs.jsonl");
+    let kept = fs::read_to_string(&file).unwrap();
+    for repetition in 1..4 {
+        assert!(kept.contains(&format!("\"repetition\":{repetition}}}")), "{kept}");
+    }
+    let runs = log(&folder).len();
+    assert!(kept.lines().count() == runs + 1 && runs <= 40);
+    // a diagnosis that was interrupted in the midst of the repeats makes none again
+    let half: Vec<&str> = kept.lines().take(runs / 2).collect();
+    let (again, _) = diagnosed(&folder, &arguments);
+    assert_eq!((&again, log(&folder).len()), (&first, runs));
+    fs::write(&file, half.join("\n") + "\n").unwrap();
+    diagnosed(&folder, &arguments);
+    assert_eq!(
+        log(&folder).len(),
+        runs + fs::read_to_string(&file).unwrap().lines().count() - half.len()
+    );
 }
 
 #[test]

@@ -3,6 +3,7 @@
 use gumption_engine::linalg::packed::{self, triangle};
 use gumption_engine::linalg::{add_multiple, dot};
 
+use crate::lengths::ValueScatter;
 use crate::matern::{correlation, inverse_squares};
 use crate::trend::{Trend, functions};
 
@@ -26,6 +27,16 @@ pub(crate) struct Conditioned {
     trend: Vec<Vec<f64>>,
     /// The Cholesky root of their products with each other.
     trend_root: Vec<f64>,
+    /// Where the values scatter.
+    nugget: Option<Nugget>,
+}
+
+/// A scatter of the first values about the function.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) struct Nugget {
+    /// The variance of the scatter, relative to that of the function.
+    pub(crate) share: f64,
+    pub(crate) scatter: ValueScatter,
 }
 
 /// A function, as its values at the points give it.
@@ -36,15 +47,24 @@ pub(crate) struct Target {
     /// What the functions of the trend are multiplied by.
     trend: Vec<f64>,
     pub(crate) variance: f64,
+    /// The sum of the squares of the whitened residuals.
+    pub(crate) squares: f64,
 }
 
 impl Conditioned {
-    pub(crate) fn new(points: Vec<Vec<f64>>, trend: Trend, ln_lengths: &[f64]) -> Self {
+    pub(crate) fn new(
+        points: Vec<Vec<f64>>,
+        trend: Trend,
+        ln_lengths: &[f64],
+        nugget: Option<Nugget>,
+    ) -> Self {
+        let scattered = nugget.map_or(0, |nugget| nugget.scatter.count);
+        let share = nugget.map_or(0.0, |nugget| nugget.share);
         let inverse_squares = inverse_squares(ln_lengths);
         let mut root = Vec::with_capacity(triangle(points.len()));
         for (i, point) in points.iter().enumerate() {
             root.extend(points[..i].iter().map(|b| correlation(point, b, &inverse_squares).value));
-            root.push(1.0 + NUGGET);
+            root.push(1.0 + NUGGET + if i < scattered { share } else { 0.0 });
         }
         packed::cholesky_of_definite(&mut root);
         let count = trend.functions(points.len(), ln_lengths.len());
@@ -61,7 +81,7 @@ impl Conditioned {
             trend_root.push(dot(&trend[i], &trend[i]) * (1.0 + RIDGE));
         }
         packed::cholesky_of_definite(&mut trend_root);
-        Self { points, inverse_squares, root, trend, trend_root }
+        Self { points, inverse_squares, root, trend, trend_root, nugget }
     }
 
     /// The function with these values at the points.
@@ -74,9 +94,12 @@ impl Conditioned {
         for (factor, of) in trend.iter().zip(&self.trend) {
             add_multiple(&mut residual, -factor, of);
         }
-        let variance = dot(&residual, &residual) / values.len().max(1) as f64 + LEAST_VARIANCE;
+        let squares = dot(&residual, &residual);
+        let likeliest = squares / values.len().max(1) as f64 + LEAST_VARIANCE;
+        let known = self.nugget.map(|nugget| nugget.scatter.variance / nugget.share);
+        let variance = known.unwrap_or(likeliest);
         packed::solve_transposed(&self.root, &mut residual);
-        Target { weights: residual, trend, variance }
+        Target { weights: residual, trend, variance, squares }
     }
 
     /// Half the logarithm of the determinant of the correlations.
@@ -99,15 +122,34 @@ impl Conditioned {
 
     /// The variance, relative to that of a target, that the points leave at one with these correlations to
     /// them.
-    pub(crate) fn left(&self, mut correlations: Vec<f64>, point: &[f64]) -> f64 {
+    pub(crate) fn left(&self, correlations: Vec<f64>, point: &[f64]) -> f64 {
+        let (known, unknown) = self.whitened(correlations, point);
+        (1.0 - dot(&known, &known)).max(NUGGET) + dot(&unknown, &unknown)
+    }
+
+    /// The variance of the value at a point with these correlations to those known that comes from their
+    /// scatter.
+    pub(crate) fn scattered(&self, correlations: Vec<f64>, point: &[f64]) -> f64 {
+        let Some(Nugget { scatter, .. }) = self.nugget else { return 0.0 };
+        let (mut weights, mut factors) = self.whitened(correlations, point);
+        packed::solve_transposed(&self.trend_root, &mut factors);
+        for (factor, of) in factors.iter().zip(&self.trend) {
+            add_multiple(&mut weights, *factor, of);
+        }
+        packed::solve_transposed(&self.root, &mut weights);
+        let own = &weights[..scatter.count.min(weights.len())];
+        scatter.variance * dot(own, own)
+    }
+
+    /// Correlations with the points, and what is left of the functions of the trend at a point, both whitened.
+    fn whitened(&self, mut correlations: Vec<f64>, point: &[f64]) -> (Vec<f64>, Vec<f64>) {
         packed::solve(&self.root, &mut correlations);
-        let known = dot(&correlations, &correlations);
         let count = self.trend.len();
         let trend = functions(count, point).zip(&self.trend);
         let mut unknown: Vec<f64> =
             trend.map(|(function, of)| function - dot(of, &correlations)).collect();
         packed::solve(&self.trend_root, &mut unknown);
-        (1.0 - known).max(NUGGET) + dot(&unknown, &unknown)
+        (correlations, unknown)
     }
 }
 

@@ -6,6 +6,7 @@ use crate::axis::Coordinate;
 use crate::focus::Focus;
 use crate::layer::{Layer, Reach};
 use crate::prediction::Prediction;
+use crate::scatter::Scatter;
 
 /// The corrections of a hypothesis: a layer that knows them everywhere, and where the posterior is narrow one
 /// that knows them there. The local one serves among its runs, the other far from them: hypotheses with more
@@ -18,16 +19,19 @@ pub struct Correction {
 
 impl Correction {
     /// Learns the corrections of some runs, at least one: `points` are scaled coordinates, each with the
-    /// correction of every row; `reach` is that of the layer that knows all of the prior.
+    /// correction of every row. Where runs scatter there is no local layer, as runs near each other show little but
+    /// their scatter; `reach` is that of the layer that knows all of the prior.
     pub fn learn(
         points: &[Vec<f64>],
         corrections: &[Vec<f64>],
         reach: &Reach<'_>,
         focus: Option<&Focus>,
+        scatter: Option<&Scatter>,
     ) -> Self {
-        let focus = focus.filter(|focus| focus.is_narrow());
-        let near = focus.map(|focus| Layer::learn(points, corrections, &Reach::Near(focus)));
-        Self { everywhere: Layer::learn(points, corrections, reach), near }
+        let focus = focus.filter(|focus| focus.is_narrow() && scatter.is_none());
+        let learn = |reach: &Reach<'_>| Layer::learn(points, corrections, reach, scatter);
+        let near = focus.map(|focus| learn(&Reach::Near(focus)));
+        Self { everywhere: learn(reach), near }
     }
 
     /// The layer that knows all of the prior.
@@ -41,7 +45,7 @@ impl Correction {
     }
 
     /// The layers that serve at a point, with their shares.
-    fn serving(&self, point: &[Coordinate]) -> impl Iterator<Item = (f64, &Layer)> {
+    pub(crate) fn serving(&self, point: &[Coordinate]) -> impl Iterator<Item = (f64, &Layer)> {
         let near = self.near.as_ref().map_or(0.0, |near| near.share(point).0);
         let layers = [(1.0 - near, Some(&self.everywhere)), (near, self.near.as_ref())];
         let serves = |(share, layer): (f64, Option<_>)| Some((share, layer?));

@@ -7,8 +7,10 @@ use gumption_engine::linalg::add_multiple;
 use crate::axis::Coordinate;
 use crate::correction::Correction;
 use crate::focus::Focus;
-use crate::layer::Reach;
+use crate::layer::{Layer, Reach};
 use crate::prediction::Prediction;
+use crate::scatter::Scatter;
+use crate::singular::SingularVectors;
 use crate::space::Space;
 use crate::unseen::UnseenError;
 
@@ -72,7 +74,11 @@ pub struct Emulator {
     rows: usize,
     /// What was run of each hypothesis.
     known: BTreeMap<Vec<usize>, Known>,
+    scatter: Option<Scatter>,
 }
+
+/// Directions that differ by less than this are one.
+const SAME: f64 = 1e-6;
 
 #[derive(Clone, Debug, Default)]
 struct Known {
@@ -87,7 +93,18 @@ struct Known {
 impl Emulator {
     /// One that knows nothing, of so many rows of all outputs together.
     pub fn new(space: Space, rows: usize) -> Self {
-        Self { space, rows, known: BTreeMap::new() }
+        Self { space, rows, known: BTreeMap::new(), scatter: None }
+    }
+
+    /// The same of a simulator whose outputs scatter from run to run: it learns their mean.
+    #[must_use]
+    pub fn with_scatter(self, scatter: Option<Scatter>) -> Self {
+        Self { scatter, ..self }
+    }
+
+    /// How the simulator's outputs scatter, if they do.
+    pub fn scatter(&self) -> Option<&Scatter> {
+        self.scatter.as_ref()
     }
 
     /// The parameters.
@@ -129,12 +146,6 @@ impl Emulator {
         if focus.is_some() {
             known.focus = focus;
         }
-        let mut learnt = Learnt { unseen: None, left_out: runs.len() - usable.len() };
-        // without runs a pair is known by superposition, a single effect not at all
-        if !errors.is_empty() && (was_known || effects.len() > 1) {
-            known.unseen = Some(UnseenError::of(&errors));
-            learnt.unseen.clone_from(&known.unseen);
-        }
         let holds = |of: &Vec<usize>| effects.iter().all(|effect| of.contains(effect));
         let mut above: Vec<Vec<usize>> =
             self.known.keys().filter(|of| holds(of)).cloned().collect();
@@ -142,7 +153,56 @@ impl Emulator {
         for of in above {
             self.learn_correction(&of);
         }
+        let mut learnt = Learnt { unseen: None, left_out: runs.len() - usable.len() };
+        // without runs a pair is known by superposition, a single effect not at all
+        if !errors.is_empty() && (was_known || effects.len() > 1) {
+            learnt.unseen = Some(self.unseen_error(effects, &points, &errors));
+            if let Some(known) = self.known.get_mut(effects) {
+                known.unseen.clone_from(&learnt.unseen);
+            }
+        }
         learnt
+    }
+
+    /// What the errors on runs at some points tell.
+    fn unseen_error(
+        &self,
+        effects: &[usize],
+        points: &[Vec<Coordinate>],
+        errors: &[Vec<f64>],
+    ) -> UnseenError {
+        let Some(scatter) = &self.scatter else { return UnseenError::of(errors) };
+        // the mean may be wrong in the directions in which it varies at the first run, which is the mode
+        let vectors = self.serving(effects, &points[0]);
+        let vectors = vectors.flat_map(|(_, _, layer)| layer.directions().to_vec());
+        let directions = SingularVectors::of(&vectors.collect::<Vec<_>>(), SAME);
+        let scattered = points.iter().flat_map(|point| {
+            self.serving(effects, point)
+                .flat_map(|(own, share, layer)| layer.scattered(&own, share))
+        });
+        UnseenError::of_mean(errors, &directions, scattered.collect(), scatter)
+    }
+
+    /// The layers that serve at a point of a hypothesis, each with its part of the point and its share.
+    fn serving(
+        &self,
+        effects: &[usize],
+        point: &[Coordinate],
+    ) -> impl Iterator<Item = (Vec<Coordinate>, f64, &Layer)> {
+        self.terms(effects, true).flat_map(move |(places, term)| {
+            let own: Vec<Coordinate> = places.iter().map(|&place| point[place]).collect();
+            let serving: Vec<(f64, &Layer)> = term.serving(&own).collect();
+            serving.into_iter().map(move |(share, layer)| (own.clone(), share, layer))
+        })
+    }
+
+    /// The standard deviations that the scatter of the runs leaves in the mean of each row, in u; `None` of a
+    /// simulator without scatter, or of which nothing is known. It is that of the mean of the plain simulator's
+    /// runs; what corrections leave is along their singular vectors.
+    pub fn left_by_scatter(&self) -> Option<Vec<f64>> {
+        let scatter = self.scatter.as_ref()?;
+        let plain = self.correction(&[])?.everywhere().runs();
+        Some(scatter.of_mean(self.rows, plain))
     }
 
     fn learn_correction(&mut self, effects: &[usize]) {
@@ -166,7 +226,8 @@ impl Emulator {
             _ => Reach::Zero(self.space.free_points(effects)),
         };
         let focus = known.focus.as_ref();
-        let correction = Correction::learn(&known.points, &corrections, &reach, focus);
+        let correction =
+            Correction::learn(&known.points, &corrections, &reach, focus, self.scatter.as_ref());
         if let Some(known) = self.known.get_mut(effects) {
             known.correction = Some(correction);
         }

@@ -5,9 +5,10 @@ use gumption_engine::linalg::add_multiple;
 use crate::axis::Coordinate;
 use crate::focus::Focus;
 use crate::frame::Frame;
-use crate::lengths::likeliest_lengths;
+use crate::lengths::{ValueScatter, likeliest_lengths, scattered_lengths};
 use crate::prediction::Prediction;
 use crate::process::GaussianProcess;
+use crate::scatter::Scatter;
 use crate::singular::SingularVectors;
 use crate::trend::Trend;
 
@@ -46,14 +47,23 @@ pub struct Layer {
     vectors: Vec<Vec<f64>>,
     /// Coefficients in the order of the vectors: the first ones one by one, then all that share lengths.
     processes: Vec<GaussianProcess>,
+    /// How many runs it learnt from.
+    runs: usize,
 }
 
 impl Layer {
     /// Learns the corrections of some runs, at least one: `points` are scaled coordinates, each with the
-    /// correction of every row.
-    pub fn learn(points: &[Vec<f64>], corrections: &[Vec<f64>], reach: &Reach<'_>) -> Self {
+    /// correction of every row. Where the runs scatter it learns their mean: directions that the scatter alone
+    /// would show are left out.
+    pub fn learn(
+        points: &[Vec<f64>],
+        corrections: &[Vec<f64>],
+        reach: &Reach<'_>,
+        scatter: Option<&Scatter>,
+    ) -> Self {
         let places = match reach {
-            Reach::Near(focus) => {
+            // few runs near a posterior would show little but their scatter
+            Reach::Near(focus) if scatter.is_none() => {
                 focus.nearest(points, (NEAREST * points[0].len()).max(LEAST_NEAREST))
             }
             _ => (0..points.len()).collect(),
@@ -78,7 +88,10 @@ impl Layer {
         if let Some(mean) = &mean {
             rows.iter_mut().for_each(|row| add_multiple(row, -1.0, mean));
         }
-        let directions = SingularVectors::of(&rows, LEFT);
+        let mut directions = SingularVectors::of(&rows, LEFT);
+        if let Some(scatter) = scatter {
+            directions.above(scatter.edge(rows[0].len(), rows.len()));
+        }
         let count = directions.vectors.len();
         let mut coefficients = vec![Vec::with_capacity(rows.len()); count];
         for row in &rows {
@@ -93,7 +106,23 @@ impl Layer {
         let mut processes = Vec::new();
         let mut lengths: Option<Vec<f64>> = None;
         let mut next = 0;
+        let scattered = directions.vectors.iter().map(|vector| ValueScatter {
+            variance: scatter.map_or(0.0, |scatter| scatter.along(vector)),
+            count: rows.len(),
+        });
+        let scattered: Vec<ValueScatter> = scattered.collect();
         while next < count {
+            let scatter = scattered[next];
+            if scatter.variance > 0.0 {
+                let values = &coefficients[next];
+                let found = scattered_lengths(&points, values, trend, scatter, lengths.as_deref());
+                let process =
+                    GaussianProcess::scattered(points.clone(), values, trend, &found, scatter);
+                processes.push(process);
+                lengths = Some(found.ln_lengths);
+                next += 1;
+                continue;
+            }
             let found = likeliest_lengths(&points, &coefficients[next], trend, lengths.as_deref());
             let end = if next + 1 < WITH_LENGTHS { next + 1 } else { count };
             let values = &coefficients[next..end];
@@ -101,12 +130,34 @@ impl Layer {
             lengths = Some(found);
             next = end;
         }
-        Self { frame, mean, vectors: directions.vectors, processes }
+        Self { frame, mean, vectors: directions.vectors, processes, runs: rows.len() }
     }
 
     /// How many singular vectors it has.
     pub fn vectors(&self) -> usize {
         self.vectors.len()
+    }
+
+    /// The singular vectors.
+    pub(crate) fn directions(&self) -> &[Vec<f64>] {
+        &self.vectors
+    }
+
+    /// How many runs it learnt from.
+    pub(crate) fn runs(&self) -> usize {
+        self.runs
+    }
+
+    /// What the scatter of the runs leaves at a point: along each singular vector a standard deviation, with a
+    /// share.
+    pub(crate) fn scattered(&self, point: &[Coordinate], share: f64) -> Vec<Vec<f64>> {
+        let (_, at) = self.framed(point);
+        let deviations =
+            self.processes.iter().flat_map(|process| process.scattered_deviations(&at));
+        let of = |(deviation, vector): (f64, &Vec<f64>)| {
+            vector.iter().map(|entry| share * deviation * entry).collect()
+        };
+        deviations.zip(&self.vectors).map(of).collect()
     }
 
     /// How far a point is among the runs that a local layer learnt from, from 0 to 1, and the derivatives of

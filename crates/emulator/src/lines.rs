@@ -60,14 +60,19 @@ impl Runs {
 
 impl Run {
     /// A line of a file of runs, with its end: the hash and the values of the parameters, and the outputs or
-    /// why there are none. Numbers are written so that they are read to the bit.
+    /// why there are none; of one that repeats others the number of the repetition as well. Numbers are written
+    /// so that they are read to the bit.
     pub fn line(&self) -> String {
         let hash = RunHash::of(&self.parameters).to_string();
         let (key, result) = match &self.result {
             Ok(outputs) => ("outputs", json!(outputs)),
             Err(reason) => ("failed", json!(reason)),
         };
-        format!("{}\n", json!({ "hash": hash, "parameters": self.parameters, key: result }))
+        let mut line = json!({ "hash": hash, "parameters": self.parameters, key: result });
+        if self.repetition > 0 {
+            line["repetition"] = json!(self.repetition);
+        }
+        format!("{line}\n")
     }
 }
 
@@ -84,7 +89,14 @@ fn run(value: &Value) -> Result<Run, String> {
         (None, Some(Value::String(reason))) => Err(reason.clone()),
         _ => return Err("it has neither `outputs` nor a reason why it `failed`".to_owned()),
     };
-    Ok(Run { parameters, result })
+    let repetition = match value.get("repetition") {
+        None => 0,
+        Some(number) => number
+            .as_u64()
+            .and_then(|number| usize::try_from(number).ok())
+            .ok_or("its `repetition` is no number of a run, which is whole and not negative")?,
+    };
+    Ok(Run { parameters, repetition, result })
 }
 
 fn numbers(value: Option<&Value>) -> Option<Vec<f64>> {
@@ -101,9 +113,10 @@ mod tests {
 
     fn text() -> String {
         let mut runs = Runs::new(vec!["a".to_owned(), "b".to_owned()]);
-        let run = |a, b, result| Run { parameters: vec![a, b], result };
+        let run = |a, b, result| Run { parameters: vec![a, b], repetition: 0, result };
         runs.keep(run(0.1, -0.0, Ok(vec![1.0 / 3.0, 5e-324]))).unwrap();
         runs.keep(run(1e300, 2.0, Err("exit code 3".to_owned()))).unwrap();
+        runs.keep(Run { repetition: 1, ..run(0.1, -0.0, Ok(vec![0.25, 1.0])) }).unwrap();
         runs.made().iter().fold(runs.heading(), |text, run| text + &run.line())
     }
 
@@ -115,6 +128,7 @@ mod tests {
         assert_eq!(read.made()[0].parameters[1].to_bits(), (-0.0f64).to_bits());
         assert_eq!(read.made()[0].result, Ok(vec![1.0 / 3.0, 5e-324]));
         assert_eq!(read.find(&[1e300, 2.0]).unwrap().result, Err("exit code 3".to_owned()));
+        assert_eq!(read.find_repetition(&[0.1, -0.0], 1).unwrap().result, Ok(vec![0.25, 1.0]));
         let again = read.made().iter().fold(read.heading(), |text, run| text + &run.line());
         assert_eq!(again, text);
     }
@@ -133,6 +147,8 @@ mod tests {
         assert_eq!((twice.line, twice.reason.contains("already")), (3, true));
         assert_eq!(error(&lines[1..]).line, 1);
         assert_eq!(error(&[]).line, 1);
+        let negative = lines[3].replace("\"repetition\":1", "\"repetition\":-1");
+        assert_eq!(error(&[lines[0], &negative]).line, 2);
         let missing = lines[2].replace("failed", "fails");
         assert_eq!(error(&[lines[0], &missing]).line, 2);
     }

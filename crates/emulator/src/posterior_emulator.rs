@@ -7,6 +7,7 @@ use crate::emulator::SimulatorRun;
 use crate::focus::Focus;
 use crate::layer::{Layer, Reach};
 use crate::prediction::Prediction;
+use crate::scatter::Scatter;
 use crate::space::Space;
 
 /// What the outputs of all rows do within the posteriors of hypotheses: each hypothesis has one layer, which
@@ -18,12 +19,19 @@ pub struct PosteriorEmulator {
     space: Space,
     rows: usize,
     layers: BTreeMap<Vec<usize>, Layer>,
+    scatter: Option<Scatter>,
 }
 
 impl PosteriorEmulator {
     /// One that knows nothing, of so many rows of all outputs together.
     pub fn new(space: Space, rows: usize) -> Self {
-        Self { space, rows, layers: BTreeMap::new() }
+        Self { space, rows, layers: BTreeMap::new(), scatter: None }
+    }
+
+    /// The same of a simulator whose outputs scatter from run to run.
+    #[must_use]
+    pub fn with_scatter(self, scatter: Option<Scatter>) -> Self {
+        Self { scatter, ..self }
     }
 
     /// Number of rows of all outputs together.
@@ -51,7 +59,7 @@ impl PosteriorEmulator {
         };
         let points: Vec<Vec<f64>> = usable.iter().map(point).collect();
         let outputs: Vec<Vec<f64>> = usable.iter().map(|run| run.outputs.clone()).collect();
-        let layer = Layer::learn(&points, &outputs, &Reach::Near(focus));
+        let layer = Layer::learn(&points, &outputs, &Reach::Near(focus), self.scatter.as_ref());
         self.layers.insert(effects.to_vec(), layer);
     }
 

@@ -1,4 +1,4 @@
-//! Runs of a simulator that were made, none of them twice.
+//! Runs of a simulator that were made, none of them twice: repetitions have numbers.
 
 use std::collections::HashMap;
 use std::error::Error;
@@ -31,11 +31,30 @@ impl fmt::Display for RunHash {
     }
 }
 
+/// What tells a run from all others.
+#[derive(Clone, Debug, PartialEq)]
+pub struct RunKey {
+    /// The values of all parameters in their declared order, each in its unit.
+    pub parameters: Vec<f64>,
+    /// How many runs with these parameters come before it: 0, unless the simulator is run again to see how its
+    /// outputs scatter.
+    pub repetition: usize,
+}
+
+/// The first run with these parameters.
+impl From<Vec<f64>> for RunKey {
+    fn from(parameters: Vec<f64>) -> Self {
+        Self { parameters, repetition: 0 }
+    }
+}
+
 /// A run of a simulator.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Run {
     /// The values of all parameters in their declared order, each in its unit.
     pub parameters: Vec<f64>,
+    /// How many runs with these parameters come before it.
+    pub repetition: usize,
     /// The outputs of all rows, finite and each in its unit, or why there are none.
     pub result: RunResult,
 }
@@ -44,7 +63,7 @@ pub struct Run {
 #[derive(Clone, Debug, PartialEq)]
 #[non_exhaustive]
 pub enum RunsError {
-    /// There is one of the same parameters.
+    /// There is one of the same parameters and number of repetition.
     Twice(Vec<f64>),
     /// So many parameters, in place of as many as there are names.
     Parameters(usize),
@@ -74,13 +93,14 @@ impl fmt::Display for RunsError {
 
 impl Error for RunsError {}
 
-/// All runs that were made, failed ones as well, in their order and by the hash of their parameters.
+/// All runs that were made, failed ones as well, in their order and by the hash of their parameters and the number
+/// of the repetition.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Runs {
     names: Vec<String>,
     rows: Option<usize>,
     made: Vec<Run>,
-    places: HashMap<RunHash, usize>,
+    places: HashMap<(RunHash, usize), usize>,
 }
 
 impl Runs {
@@ -99,15 +119,21 @@ impl Runs {
         &self.made
     }
 
-    /// The run with these parameters, to the bit, if it was made.
+    /// The first run with these parameters, to the bit, if it was made.
     pub fn find(&self, parameters: &[f64]) -> Option<&Run> {
-        self.places.get(&RunHash::of(parameters)).map(|&place| &self.made[place])
+        self.find_repetition(parameters, 0)
+    }
+
+    /// The run with these parameters, to the bit, and this number of repetition, if it was made.
+    pub fn find_repetition(&self, parameters: &[f64], repetition: usize) -> Option<&Run> {
+        let key = (RunHash::of(parameters), repetition);
+        self.places.get(&key).map(|&place| &self.made[place])
     }
 
     /// Keeps a run. One with an output that is no finite number has failed.
     ///
     /// # Errors
-    /// Parameters that were run before or do not fit the names; a number of rows that differs.
+    /// A repetition that was made before; parameters that do not fit the names; a number of rows that differs.
     pub fn keep(&mut self, mut run: Run) -> Result<&Run, RunsError> {
         if run.parameters.len() != self.names.len() {
             return Err(RunsError::Parameters(run.parameters.len()));
@@ -127,11 +153,11 @@ impl Runs {
                 run.result = Err(format!("output {} is {}", row + 1, outputs[row]));
             }
         }
-        let hash = RunHash::of(&run.parameters);
-        if self.places.contains_key(&hash) {
+        let key = (RunHash::of(&run.parameters), run.repetition);
+        if self.places.contains_key(&key) {
             return Err(RunsError::Twice(run.parameters));
         }
-        self.places.insert(hash, self.made.len());
+        self.places.insert(key, self.made.len());
         self.made.push(run);
         Ok(&self.made[self.made.len() - 1])
     }
@@ -146,7 +172,7 @@ mod tests {
     }
 
     fn run(parameters: [f64; 2], outputs: &[f64]) -> Run {
-        Run { parameters: parameters.to_vec(), result: Ok(outputs.to_vec()) }
+        Run { parameters: parameters.to_vec(), repetition: 0, result: Ok(outputs.to_vec()) }
     }
 
     /// The hash of 1 and 2 as computed by Python: `hashlib.sha256(struct.pack("<2d", 1, 2))`.
@@ -170,6 +196,12 @@ mod tests {
         let error = runs.keep(run([f64::NAN, 0.0], &[1.0, 2.0])).unwrap_err();
         assert_eq!(error, RunsError::NotFinite("length".to_owned()));
         assert_eq!(runs.made().len(), 1);
+        // but a repetition is another run
+        let again = Run { repetition: 1, ..run([0.5, 0.0], &[1.0, 3.0]) };
+        runs.keep(again.clone()).unwrap();
+        assert_eq!(runs.find_repetition(&[0.5, 0.0], 1), Some(&again));
+        assert_eq!(runs.find(&[0.5, 0.0]).unwrap().result, Ok(vec![1.0, 2.0]));
+        assert_eq!(runs.keep(again).unwrap_err(), RunsError::Twice(vec![0.5, 0.0]));
     }
 
     #[test]

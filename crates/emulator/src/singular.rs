@@ -71,6 +71,13 @@ impl SingularVectors {
         }
     }
 
+    /// Leaves out those along which the mean square is not above this.
+    pub(crate) fn above(&mut self, square: f64) {
+        let count = self.sizes.iter().take_while(|size| *size * *size > square).count();
+        self.vectors.truncate(count);
+        self.sizes.truncate(count);
+    }
+
     /// How much of a vector is along each.
     pub fn coefficients(&self, vector: &[f64]) -> Vec<f64> {
         self.vectors.iter().map(|direction| dot(direction, vector)).collect()

@@ -3,9 +3,14 @@
 use gumption_engine::distribution::StreamKey;
 
 use crate::focus::Focus;
+use crate::scatter::Scatter;
 use crate::space::Space;
 use crate::step::Batch;
 use crate::uniforms::Uniforms;
+
+/// How many posterior widths further draws are for each u that a simulator scatters by. Three gave the smallest errors
+/// of parameters with 150 runs of a pendulum that scatter by 0.3 and 1 u, among 0, 1 and 3.
+const WIDER: f64 = 3.0;
 
 /// The posterior of a hypothesis.
 #[derive(Clone, Debug, PartialEq)]
@@ -23,6 +28,26 @@ pub struct State {
 }
 
 impl State {
+    /// The same for the runs of a simulator that scatters: draws further from the mode, by a factor that grows with
+    /// the scatter, and no wider than the prior. Runs as near as a narrow posterior has them show no slope beyond
+    /// their scatter.
+    #[must_use]
+    pub fn widened(mut self, scatter: &Scatter) -> Self {
+        let most = 1.0 + WIDER * scatter.size();
+        for j in 0..self.mode.len() {
+            let squares =
+                self.draws.iter().zip(&self.weights).map(|(draw, weight)| {
+                    weight * (draw[j] - self.mode[j]) * (draw[j] - self.mode[j])
+                });
+            let width = squares.sum::<f64>().sqrt();
+            let factor = if width > 0.0 { (1.0 / width).clamp(1.0, most) } else { 1.0 };
+            for draw in &mut self.draws {
+                draw[j] = self.mode[j] + factor * (draw[j] - self.mode[j]);
+            }
+        }
+        self
+    }
+
     /// The mode and draws of the posterior as runs, so many in all at most; the draws follow from the key and
     /// the number of the stream.
     pub fn batch(&self, space: &Space, count: usize, key: StreamKey, stream: u64) -> Batch {

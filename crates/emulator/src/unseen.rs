@@ -1,7 +1,8 @@
 //! What an emulator did not know: its errors on runs that it had not seen.
 
+use crate::scatter::Scatter;
 use crate::singular::SingularVectors;
-use gumption_engine::linalg::dot;
+use gumption_engine::linalg::{add_multiple, dot};
 use gumption_engine::number::median;
 
 /// Directions of errors are kept until what is left has this norm over all rows, in u.
@@ -24,10 +25,53 @@ impl UnseenError {
         Self { norms, factor: SingularVectors::of(errors, LEFT) }
     }
 
+    /// Of a simulator whose runs scatter, for what is not known of its mean: of the errors of all rows of some
+    /// runs, at least one, along directions in which the mean may be wrong. From each norm is taken what the
+    /// scatter has there. The covariance is what the scatter leaves in the mean at the runs, columns of factors `scattered` of all of
+    /// them, and
+    /// what of the errors is beyond what the scatter alone shows along any direction.
+    pub(crate) fn of_mean(
+        errors: &[Vec<f64>],
+        directions: &SingularVectors,
+        scattered: Vec<Vec<f64>>,
+        scatter: &Scatter,
+    ) -> Self {
+        let runs = errors.len() as f64;
+        let own =
+            |of: &[f64]| -> f64 { directions.vectors.iter().map(|v| square(dot(v, of))).sum() };
+        let expected: f64 = directions.vectors.iter().map(|vector| scatter.along(vector)).sum();
+        let norms = errors.iter().map(|error| (own(error) - expected).max(0.0).sqrt()).collect();
+        let within = |error: &Vec<f64>| {
+            let mut sum = vec![0.0; error.len()];
+            for (along, vector) in directions.coefficients(error).iter().zip(&directions.vectors) {
+                add_multiple(&mut sum, *along, vector);
+            }
+            sum
+        };
+        let within: Vec<Vec<f64>> = errors.iter().map(within).collect();
+        let edge = square(1.0 + (directions.vectors.len() as f64 / runs).sqrt());
+        let found = SingularVectors::of(&within, LEFT);
+        let beyond = found.vectors.iter().zip(&found.sizes).filter_map(|(vector, size)| {
+            let beyond = size * size - edge * scatter.along(vector);
+            (beyond > 0.0).then(|| vector.iter().map(|v| beyond.sqrt() * v).collect())
+        });
+        let mut columns: Vec<Vec<f64>> = beyond.collect();
+        let share = 1.0 / runs.sqrt();
+        columns.extend(scattered.into_iter().map(|of| of.iter().map(|v| share * v).collect()));
+        // the mean square over the columns times their number is their sum
+        let count = (columns.len() as f64).sqrt();
+        columns.iter_mut().flatten().for_each(|entry| *entry *= count);
+        Self { norms, factor: SingularVectors::of(&columns, LEFT) }
+    }
+
     /// The median of the norms, of an even number of them the upper one of the two.
     pub fn median(&self) -> f64 {
         median(self.norms.clone()).unwrap_or(0.0)
     }
+}
+
+fn square(of: f64) -> f64 {
+    of * of
 }
 
 #[cfg(test)]

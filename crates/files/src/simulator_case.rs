@@ -22,6 +22,8 @@ pub(super) fn read(
     let report = |place: &Range<usize>, reason: String| {
         root.log.report(place, DiagnosticKind::Simulator { reason });
     };
+    let object = Object::new(root.log, "`simulator`", &member.value, &member.key_span)?;
+    let noisy = object.truth("noisy").unwrap_or(false);
     let mut names: Vec<&str> = Vec::new();
     let mut inputs = Vec::new();
     let first = task.rows.first()?;
@@ -69,5 +71,5 @@ pub(super) fn read(
     }
     let space = Space::new(inputs, effects);
     let space = space.map_err(|error| report(&member.key_span, format!("cannot be run: {error}")));
-    Some(SimulatorModel::new(space.ok()?))
+    Some(SimulatorModel::new(space.ok()?).noisy(noisy))
 }

@@ -5,7 +5,7 @@ use std::sync::Arc;
 
 use gumption_emulator::{Emulator, PosteriorEmulator, Prediction, Space};
 use gumption_engine::model::variables;
-use gumption_engine::number::{COLUMN, Column, median};
+use gumption_engine::number::{COLUMN, Column, elementary, median};
 use gumption_engine::task::Row;
 
 use crate::latent::Role;
@@ -14,7 +14,8 @@ use crate::{Candidate, Case};
 
 impl Case {
     /// The same after runs of its simulator: `emulator` says what the outputs of all rows are, output after
-    /// output, counted in `units` as [`Case::simulator_units`] has them. `None` in a case without a simulator
+    /// output, counted in `units` as [`Case::simulator_units`] has them. What a scatter of the runs leaves in every
+    /// row counts as an uncertainty of the simulation. `None` in a case without a simulator
     /// or with another number of values.
     pub fn emulated(&self, emulator: Emulator, units: Vec<f64>) -> Option<Self> {
         let simulator = self.simulator.as_ref()?;
@@ -24,6 +25,8 @@ impl Case {
             return None;
         }
         let mut case = self.clone();
+        let left = emulator.left_by_scatter();
+        let left = left.map(|left| left.iter().zip(&units).map(|(u, unit)| u * unit).collect());
         let simulator = Arc::new(simulator.with(emulator, units));
         case.simulator = Some(Arc::clone(&simulator));
         let first = self.described();
@@ -34,7 +37,33 @@ impl Case {
                 row.conditions[first + place] = plain.values[value];
             }
         }
+        if let Some(left) = left {
+            case.add_uncertainties(left);
+        }
         Some(case)
+    }
+
+    /// Adds to the uncertainties of the simulation those of a simulator's outputs, output after output in their
+    /// units, which are independent.
+    fn add_uncertainties(&mut self, of_simulator: Vec<f64>) {
+        let rows = self.task.rows.len();
+        let slopes: Vec<Vec<Vec<f64>>> = (0..rows).map(|row| self.slopes(row)).collect();
+        for (output, observed) in self.observed.iter_mut().enumerate() {
+            let Some(observed) = observed else { continue };
+            let of_row = |(row, slopes): (usize, &Vec<Vec<f64>>)| {
+                let parts = slopes[output].iter().enumerate();
+                parts.fold(0.0, |sum, (place, slope)| {
+                    elementary::hypot(sum, slope * of_simulator[place * rows + row])
+                })
+            };
+            let mut own: Vec<f64> = slopes.iter().enumerate().map(of_row).collect();
+            if let Some(before) = &observed.simulation_uncertainties {
+                own.iter_mut()
+                    .zip(before)
+                    .for_each(|(u, other)| *u = elementary::hypot(*u, *other));
+            }
+            observed.simulation_uncertainties = Some(own);
+        }
     }
 
     /// The same after runs of its simulator in other rows, and these rows with what it gives there at the

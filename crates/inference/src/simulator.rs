@@ -16,6 +16,7 @@ use gumption_units::Unit;
 #[derive(Debug)]
 pub struct SimulatorModel {
     space: Space,
+    noisy: bool,
     pub(crate) learnt: Option<Arc<Learnt>>,
     pub(crate) elsewhere: Option<Elsewhere>,
     /// What the emulators say of the plain simulator at the inputs that were asked for last.
@@ -56,19 +57,35 @@ impl SimulatorModel {
     /// One that was never run. `space` are its parameters: all inputs of the model in their order, then those
     /// of the candidates that it can do by itself.
     pub fn new(space: Space) -> Self {
-        Self { space, learnt: None, elsewhere: None, plain: Mutex::default() }
+        Self { space, noisy: false, learnt: None, elsewhere: None, plain: Mutex::default() }
+    }
+
+    /// The same, of which is said whether its outputs scatter from run to run at the same parameters.
+    #[must_use]
+    pub fn noisy(self, noisy: bool) -> Self {
+        Self { noisy, ..self }
+    }
+
+    /// Whether its outputs scatter from run to run.
+    pub fn is_noisy(&self) -> bool {
+        self.noisy
+    }
+
+    /// The same that was never run.
+    fn without_runs(&self) -> Self {
+        Self::new(self.space.clone()).noisy(self.noisy)
     }
 
     /// The same after runs.
     pub(crate) fn with(&self, emulator: Emulator, units: Vec<f64>) -> Self {
         let learnt = Some(Arc::new(Learnt { emulator, units }));
-        Self { learnt, ..Self::new(self.space.clone()) }
+        Self { learnt, ..self.without_runs() }
     }
 
     /// The same after runs in other rows as well.
     pub(crate) fn with_elsewhere(&self, emulator: PosteriorEmulator, units: Vec<f64>) -> Self {
         let elsewhere = Some(Elsewhere { emulator, units });
-        Self { learnt: self.learnt.clone(), elsewhere, ..Self::new(self.space.clone()) }
+        Self { learnt: self.learnt.clone(), elsewhere, ..self.without_runs() }
     }
 
     /// What it is run with.

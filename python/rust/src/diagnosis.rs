@@ -186,7 +186,10 @@ impl SimulatedGap {
         let (parameters, outputs) = (parameters.as_array(), outputs.as_array());
         let mut runs = Runs::new(given.parameter_names());
         for (parameters, outputs) in parameters.rows().into_iter().zip(outputs.rows()) {
-            let run = Run { parameters: parameters.to_vec(), result: Ok(outputs.to_vec()) };
+            let parameters = parameters.to_vec();
+            let earlier = runs.made().iter().filter(|run: &&Run| run.parameters == parameters);
+            let repetition = earlier.count();
+            let run = Run { parameters, repetition, result: Ok(outputs.to_vec()) };
             runs.keep(run).map_err(|error| argument(py, error.to_string()))?;
         }
         self.diagnosed(py, None, seed, progress, move |_, stop| {

@@ -209,8 +209,8 @@ def runs(parameters: Any, outputs: Mapping[str, npt.ArrayLike]) -> Runs:
     Raises
     ------
     ValueError
-        There is no run, parameter or output; a parameter that is no finite number; two runs with the
-        same parameters; numbers of runs or rows that differ.
+        There is no run, parameter or output; a parameter that is no finite number; numbers of runs or
+        rows that differ.
     """
     known = {name: numbers(column) for name, column in columns(parameters).items()}
     if not known or not len(next(iter(known.values()))):
@@ -227,11 +227,6 @@ def runs(parameters: Any, outputs: Mapping[str, npt.ArrayLike]) -> Runs:
             raise ValueError(
                 f"the parameter {name!r} of run {bad[0] + 1} is {column[bad[0]]}, but must be a finite number"
             )
-    seen: dict[bytes, int] = {}
-    for run, values in enumerate(np.column_stack(list(known.values()))):
-        before = seen.setdefault(values.tobytes(), run)
-        if before != run:
-            raise ValueError(f"the runs {before + 1} and {run + 1} have the same parameters")
     rows = None
     for name, given in outputs.items():
         values = np.asarray(given, dtype=np.float64)

@@ -4,7 +4,7 @@ use std::fmt;
 use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
 
-use gumption_emulator::{RunResult, Runs, Simulator, SimulatorCase};
+use gumption_emulator::{RunKey, RunResult, Runs, Simulator, SimulatorCase};
 use gumption_engine::task::Row;
 use gumption_gap::simulated::{
     MakeRuns, ParameterSet, SimulatorDiagnosis, diagnose, diagnose_made,
@@ -116,7 +116,11 @@ fn with_runs<T>(
 ) -> Result<T, Failure> {
     let mut not_kept = None;
     let mut make = |sets: &[ParameterSet]| -> Vec<RunResult> {
-        let batch: Vec<Vec<f64>> = sets.iter().map(|set| set.values.clone()).collect();
+        let key = |set: &ParameterSet| RunKey {
+            parameters: set.values.clone(),
+            repetition: set.repetition,
+        };
+        let batch: Vec<RunKey> = sets.iter().map(key).collect();
         let results = runs.results(simulator, &batch).unwrap_or_else(|failure| {
             not_kept = Some(failure);
             Vec::new()

@@ -5,7 +5,7 @@ use std::io::{self, Read, Write};
 use std::ops::ControlFlow;
 use std::path::{Path, PathBuf};
 
-use gumption_emulator::{Run, RunResult, Runs, Simulator, SimulatorCase};
+use gumption_emulator::{Run, RunKey, RunResult, Runs, Simulator, SimulatorCase};
 
 use super::runs_file::{NAME, RunsFile, heading, read};
 use crate::{Failure, signals};
@@ -91,7 +91,7 @@ impl KeptRuns {
         self.file.is_some()
     }
 
-    /// The results at all sets of parameters, in their order. Only the runs that were not made before are
+    /// The results of all runs, in their order. Only the runs that were not made before are
     /// made now, each of them once; `None` for those that a stop left out. A result with a wrong number of
     /// values is a failed run.
     ///
@@ -100,22 +100,28 @@ impl KeptRuns {
     pub fn results(
         &mut self,
         simulator: &dyn Simulator,
-        batch: &[Vec<f64>],
+        batch: &[RunKey],
     ) -> Result<Vec<Option<RunResult>>, Failure> {
-        let mut missing: Vec<Vec<f64>> = Vec::new();
-        for parameters in batch {
-            if self.runs.find(parameters).is_none() && !missing.contains(parameters) {
-                missing.push(parameters.clone());
+        let find = |runs: &Runs, key: &RunKey| {
+            let run = runs.find_repetition(&key.parameters, key.repetition);
+            run.map(|run| run.result.clone())
+        };
+        let mut missing: Vec<&RunKey> = Vec::new();
+        for key in batch {
+            if find(&self.runs, key).is_none() && !missing.contains(&key) {
+                missing.push(key);
             }
         }
+        let sets: Vec<Vec<f64>> = missing.iter().map(|key| key.parameters.clone()).collect();
         let mut kept = Ok(());
         let case = self.case.clone();
-        simulator.run(&missing, &case, &mut |index, result| {
-            kept = self.keep(Run { parameters: missing[index].clone(), result });
+        simulator.run(&sets, &case, &mut |index, result| {
+            let RunKey { parameters, repetition } = missing[index].clone();
+            kept = self.keep(Run { parameters, repetition, result });
             if kept.is_ok() { ControlFlow::Continue(()) } else { ControlFlow::Break(()) }
         });
         kept?;
-        Ok(batch.iter().map(|of| self.runs.find(of).map(|run| run.result.clone())).collect())
+        Ok(batch.iter().map(|key| find(&self.runs, key)).collect())
     }
 
     fn keep(&mut self, mut run: Run) -> Result<(), Failure> {

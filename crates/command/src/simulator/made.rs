@@ -30,12 +30,12 @@ pub struct MadeRuns {
 /// Reads the runs of a case in a folder. It has either the file `runs.jsonl` of kept runs, or a table
 /// `parameters.csv`, as [`design`](super::design) writes it, with a file for each run: `7.json` for run 7
 /// with what a program writes, or `7.csv` with a column for each output. A run whose file has anything else
-/// has failed; a run without a file was not made.
+/// has failed; a run without a file was not made. Runs with the same parameters are repetitions in the order of the
+/// table.
 ///
 /// # Errors
 /// There is neither of the files, or it cannot be read; kept runs of another case; a table without one of the
-/// parameters, in another unit, with a number of a run that is no whole number, or with the same
-/// parameters twice.
+/// parameters, in another unit, or with a number of a run that is no whole number.
 pub fn made(folder: &Path, case: &SimulatorCase) -> Result<MadeRuns, Failure> {
     let kept = folder.join(NAME);
     if kept.is_file() {
@@ -70,7 +70,9 @@ pub fn made(folder: &Path, case: &SimulatorCase) -> Result<MadeRuns, Failure> {
             missing.push(format!("{number}"));
             continue;
         };
-        runs.keep(Run { parameters, result })
+        let earlier = runs.made().iter().filter(|run| run.parameters == parameters);
+        let repetition = earlier.count();
+        runs.keep(Run { parameters, repetition, result })
             .map_err(|error| Failure::Argument(format!("`{name}`: run {number}: {error}")))?;
     }
     Ok(MadeRuns { runs, notes: missing_note(&missing).into_iter().collect() })

@@ -6,10 +6,10 @@ use std::sync::atomic::AtomicBool;
 use std::time::Duration;
 
 use clap::Args;
-use gumption_emulator::{Plan, SimulatorCase};
+use gumption_emulator::SimulatorCase;
 use gumption_engine::task::Row;
 use gumption_gap::Case;
-use gumption_gap::simulated::{PREDICTION_RUNS, simulator_case};
+use gumption_gap::simulated::{self, PREDICTION_RUNS, simulator_case};
 
 use super::{KeptRuns, MadeRuns, Program, SimulatedCase, design, made};
 use crate::Failure;
@@ -68,14 +68,10 @@ impl SimulatorOptions {
         seed: u64,
         file: Destination,
     ) -> Result<(), Failure> {
-        let Some(simulator) = &case.simulator else { return Err(self.without_simulator()) };
-        let space = simulator.space();
-        let batches = Plan::filling(space, self.budget(), seed);
-        let batches = batches.map_err(|error| Failure::Argument(error.to_string()))?;
-        let sets = batches.iter().flat_map(|batch| {
-            batch.scores.iter().map(|scores| space.values(&batch.effects, scores))
-        });
-        self.write_runs(case, &sets.collect::<Vec<_>>(), 1, file)
+        let runs = simulated::design(case, self.budget(), seed);
+        let runs = runs.map_err(|error| Failure::Argument(error.to_string()))?;
+        let sets: Vec<Vec<f64>> = runs.into_iter().map(|run| run.parameters).collect();
+        self.write_runs(case, &sets, 1, file)
     }
 
     /// Writes runs to be made, numbered from `first` on.

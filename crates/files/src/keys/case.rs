@@ -108,6 +108,11 @@ pub(crate) const SIMULATOR: &[Key] = keys![
             )
             .with("minProperties", 1),
     "about" => text_of("Which program it is, in words: version, solver, tolerance."),
+    "noisy" => described(
+                "boolean",
+                "Whether the program's answers scatter from run to run at the same parameters (random numbers, \
+                 solvers that depend on threads). Some runs are then repeats, and its mean is the sim.",
+            ),
 ];
 
 fn simulator() -> Value {

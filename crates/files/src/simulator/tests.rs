@@ -46,6 +46,7 @@ fn a_simulator_gets_inputs_and_the_parameters_of_its_effects() {
     assert_eq!(effects, [None, Some(0), Some(1)]);
     let space = case.simulator.as_ref().unwrap().space();
     assert_eq!(space.names(), ["length", "drag", "width", "height"]);
+    assert!(!case.simulator.as_ref().unwrap().is_noisy());
     // the width is at the median of its logarithm where nothing names it neutral
     let values = space.values(&[], &[0.0]);
     assert_eq!([values[0], values[1], values[3]], [0.5, 0.0, 0.0]);
@@ -119,4 +120,16 @@ fn a_simulator_is_run_by_the_diagnosis_alone() {
     let text = pendulum().to_string();
     let file = FileReader::default().model_text("case.json", &text, Path::new(""), &[]);
     assert!(file.unwrap_err().to_string().contains("`gumption gap` alone"));
+}
+
+#[test]
+fn a_simulator_may_be_noisy() {
+    let mut file = pendulum();
+    file["simulator"]["noisy"] = json!(true);
+    assert!(read(&file).unwrap().case.simulator.unwrap().is_noisy());
+    file["simulator"]["noisy"] = json!("yes");
+    let wrong = read(&file).unwrap_err();
+    assert!(wrong.contains("`noisy`") && wrong.contains("true or false"), "{wrong}");
+    file["simulator"] = json!({"outputs": {"angle": "mrad"}, "noise": true});
+    assert!(read(&file).unwrap_err().contains("`noise`"));
 }

@@ -48,7 +48,8 @@ impl SimulatorDiagnosis {
         let units: Vec<f64> = units.flat_map(|unit| vec![unit; rows.len()]).collect();
         let mut runs = SimulatorRuns::new(case, &rows, units, kept)?;
         let batches = self.batches(&runs, budget);
-        let mut emulator = PosteriorEmulator::new(runs.space.clone(), runs.units.len());
+        let mut emulator = PosteriorEmulator::new(runs.space.clone(), runs.units.len())
+            .with_scatter(self.scatter.clone());
         for (batch, made) in runs.made(batches, make)? {
             if made.is_empty() {
                 let failed = runs.failed().map(|(at, why)| format!(": {at}: {why}"));

@@ -3,11 +3,11 @@
 use std::collections::BTreeMap;
 use std::sync::atomic::{AtomicBool, Ordering};
 
-use gumption_emulator::{Focus, Plan, Runs, Space, UnseenError};
+use gumption_emulator::{Focus, Plan, Run, RunKey, Runs, Scatter, Space, UnseenError};
 
 use super::simulation::Simulation;
 use super::simulator_runs::SimulatorRuns;
-use super::{SimulatorDiagnosis, refused};
+use super::{SimulatorDiagnosis, refused, repeats};
 use crate::diagnose::DiagnosisOptions;
 use crate::{Case, OverrideError};
 
@@ -35,17 +35,21 @@ pub fn diagnose_made(
     let space = runs.space.clone();
     let made = runs.runs.made();
     let count = made.len();
-    let mut by_effects: BTreeMap<(usize, Vec<usize>), Vec<Vec<f64>>> = BTreeMap::new();
-    for run in made {
-        check_constants(&space, &run.parameters)?;
-        let effects = space.acting(&run.parameters);
-        let of = by_effects.entry((effects.len(), effects)).or_default();
-        of.push(run.parameters.clone());
+    // runs of one effect are learnt before those of two
+    let mut by_effects: BTreeMap<(usize, Vec<usize>), Vec<RunKey>> = BTreeMap::new();
+    for Run { parameters, repetition, .. } in made {
+        check_constants(&space, parameters)?;
+        let effects = space.acting(parameters);
+        let key = RunKey { parameters: parameters.clone(), repetition: *repetition };
+        by_effects.entry((effects.len(), effects)).or_default().push(key);
     }
-    let mut simulation = Simulation::new(case, runs, options.seed, stop);
-    for ((_, effects), parameters) in &by_effects {
-        let learnt = simulation.runs.at(effects, parameters)?;
-        let (first, rest) = learnt.split_at((LEARNT * learnt.len() as f64).ceil() as usize);
+    let (scatter, repeats) = scatter(case, &runs)?;
+    let start = (Vec::new(), scatter);
+    let mut simulation = Simulation::new(case, runs, start, options.seed, stop);
+    for ((_, effects), keys) in &by_effects {
+        let kept = keys.iter().filter_map(|key| simulation.runs.kept(effects, key).transpose());
+        let kept = kept.collect::<Result<Vec<_>, _>>()?;
+        let (first, rest) = kept.split_at((LEARNT * kept.len() as f64).ceil() as usize);
         for part in [first, rest] {
             simulation.emulator.learn(effects, part, None);
         }
@@ -74,7 +78,39 @@ pub fn diagnose_made(
         .iter()
         .flat_map(|batch| batch.scores.iter().map(|scores| space.values(&batch.effects, scores)));
     let more = more.collect();
-    simulation.concluded(ending, more, options, progress).map(Some)
+    simulation.concluded(ending, more, repeats, options, progress).map(Some)
+}
+
+/// How the outputs of a noisy simulator scatter, from the runs that have their parameters in common with others,
+/// and how many these are.
+///
+/// # Errors
+/// A noisy simulator of which all runs have parameters of their own; one that is not noisy and does not repeat.
+fn scatter(case: &Case, runs: &SimulatorRuns) -> Result<(Option<Scatter>, usize), OverrideError> {
+    let mut repeats: Vec<Vec<Vec<f64>>> = Vec::new();
+    for run in runs.runs.made().iter().filter(|run| run.repetition == 1) {
+        let key = |repetition| RunKey { parameters: run.parameters.clone(), repetition };
+        let made = (0..).take_while(|&repetition| runs.find(&key(repetition)).is_some());
+        let succeeded = made.filter_map(|repetition| runs.outputs(&key(repetition)).transpose());
+        let succeeded = succeeded.collect::<Result<Vec<_>, _>>()?;
+        if let ([first, others @ ..], false) = (&succeeded[..], runs.is_noisy()) {
+            let at = format!("at {}", runs.shown(&run.parameters));
+            others.iter().try_for_each(|other| repeats::check(case, &at, first, other))?;
+        }
+        repeats.push(succeeded);
+    }
+    if !runs.is_noisy() {
+        return Ok((None, 0));
+    }
+    let count = repeats.iter().map(Vec::len).sum();
+    let repeats: Vec<Vec<&[f64]>> =
+        repeats.iter().map(|of| of.iter().map(Vec::as_slice).collect()).collect();
+    let scatter = Scatter::of(&repeats, case.simulated - 1).ok_or_else(|| {
+        let reason = "the simulator is noisy, and no two runs have the same parameters; its scatter takes \
+                      some that have";
+        refused(reason.to_owned())
+    })?;
+    Ok((Some(scatter), count))
 }
 
 /// Checks that a run has the constants of the case.

@@ -8,17 +8,19 @@ mod case;
 mod elsewhere;
 mod made;
 mod notes;
+mod repeats;
 mod simulation;
 mod simulator_runs;
 
 use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
 
+use gumption_emulator::{Batch, Plan, Step};
 pub use gumption_emulator::{
-    Ending, Open, Parameter, Run, RunHash, RunResult, Runs, RunsError, Simulator, SimulatorCase,
-    SimulatorCondition, SimulatorEffect, SimulatorQuantity, Space, SpaceError,
+    Ending, Open, OutputScatter, Parameter, Run, RunHash, RunKey, RunResult, Runs, RunsError,
+    Scatter, Simulator, SimulatorCase, SimulatorCondition, SimulatorEffect, SimulatorQuantity,
+    Space, SpaceError, TooFewRuns,
 };
-use gumption_emulator::{Plan, Step};
 
 pub use self::case::simulator_case;
 pub use self::elsewhere::{PREDICTION_RUNS, Predictions};
@@ -37,6 +39,35 @@ pub struct ParameterSet {
     pub names: Arc<[String]>,
     /// Their values, each in the parameter's unit.
     pub values: Vec<f64>,
+    /// How many runs with these values come before it: 0, unless the simulator is run again to see whether it
+    /// repeats, or how it scatters. The simulator does not get it.
+    pub repetition: usize,
+}
+
+/// At most so many runs of a case's simulator that are made all at once: those that fill the space, and of one
+/// that is noisy repeats with all inputs at their medians.
+///
+/// # Errors
+/// A case without a simulator; fewer runs than the start of a diagnosis takes.
+pub fn design(case: &Case, runs: usize, seed: u64) -> Result<Vec<RunKey>, OverrideError> {
+    let Some(simulator) = &case.simulator else {
+        return Err(refused("the case has no simulator".to_owned()));
+    };
+    let space = simulator.space();
+    let repeats = if simulator.is_noisy() { repeats::count(true) } else { 0 };
+    let batches = Plan::filling(space, runs.saturating_sub(repeats), seed);
+    let batches = batches.map_err(|error| too_few(error, repeats))?;
+    let medians = space.values(&[], &vec![0.0; space.unknowns(&[]).len()]);
+    let again = (0..repeats).map(|repetition| RunKey { parameters: medians.clone(), repetition });
+    let values = |batch: &Batch| {
+        let values = batch.scores.iter().map(|scores| space.values(&batch.effects, scores));
+        values.map(RunKey::from).collect::<Vec<_>>()
+    };
+    Ok(again.chain(batches.iter().flat_map(values)).collect())
+}
+
+fn too_few(error: TooFewRuns, repeats: usize) -> OverrideError {
+    refused(TooFewRuns { least: error.least + repeats }.to_string())
 }
 
 /// A diagnosis with the runs that it took.
@@ -53,6 +84,8 @@ pub struct SimulatorDiagnosis {
     pub ending: Ending,
     /// The parameters of runs that would tell more, where none was made for the diagnosis.
     pub more: Vec<Vec<f64>>,
+    /// How the simulator's outputs scatter from run to run, of one that is noisy.
+    pub scatter: Option<Scatter>,
     known: Arc<KnownGap>,
 }
 
@@ -64,13 +97,15 @@ pub type MakeRuns<'m> = dyn FnMut(&[ParameterSet]) -> Vec<RunResult> + 'm;
 const RUN: f64 = 0.8;
 
 /// Diagnoses a case with a simulator, of which `make` makes at most `budget` runs less those among `kept` that
-/// the plan asks for. `progress` is told the share that is done. Once `stop` is set no run is asked for, and
-/// `make` may give back fewer than it was asked for: `None` where the last run was not made yet, else what is
-/// known, marked as interrupted.
+/// are asked for. The first ones are repeats with all inputs at their medians: they show that the simulator
+/// repeats, or if it is noisy how its outputs scatter. `progress` is told the share that is done. Once `stop` is
+/// set no run is asked for, and `make` may give back fewer than it was asked for: `None` where the last run was
+/// not made yet, else what is known, marked as interrupted.
 ///
 /// # Errors
 /// A case without a simulator, or one that cannot be diagnosed; a budget that is too small; kept runs of other
-/// parameters; runs with another number of values than there are rows; no run of the plain simulator.
+/// parameters; runs with another number of values than there are rows; no run of the plain simulator; a
+/// simulator that is not noisy and gives something else at the same parameters.
 pub fn diagnose(
     case: &Case,
     make: &mut MakeRuns<'_>,
@@ -81,11 +116,17 @@ pub fn diagnose(
     stop: &AtomicBool,
 ) -> Result<Option<SimulatorDiagnosis>, OverrideError> {
     case.check()?;
-    let runs = SimulatorRuns::new(case, &case.task.rows, case.simulator_units(), kept)?;
-    let mut plan = Plan::new(runs.space.clone(), budget, options.seed)
-        .map_err(|error| refused(error.to_string()))?;
-    let mut simulation = Simulation::new(case, runs, options.seed, stop);
+    let mut runs = SimulatorRuns::new(case, &case.task.rows, case.simulator_units(), kept)?;
+    let repeats = repeats::count(runs.is_noisy());
+    let planned = budget.saturating_sub(repeats);
+    let mut plan = Plan::new(runs.space.clone(), planned, options.seed)
+        .map_err(|error| too_few(error, repeats))?;
     let is_stopped = || stop.load(Ordering::Relaxed);
+    let start = match repeats::start(case, &mut runs, make) {
+        Err(_) if is_stopped() => return Ok(None),
+        start => start?,
+    };
+    let mut simulation = Simulation::new(case, runs, start, options.seed, stop);
     let mut states = Vec::new();
     let ending = loop {
         match plan.next(std::mem::take(&mut states)) {
@@ -100,14 +141,14 @@ pub fn diagnose(
                         simulation.emulator.learn(&batch.effects, &made, batch.focus.clone());
                     plan.learnt(&batch, learnt.unseen.as_ref());
                 }
-                progress(RUN * plan.used() as f64 / budget as f64);
+                progress(RUN * plan.used() as f64 / planned as f64);
             }
             Step::Infer(asked) => states = simulation.inferred(asked)?,
-            Step::Done(ending) => break ending,
+            Step::Done(ending) => break Ending { runs: ending.runs + repeats, ..ending },
         }
     };
     let progress = |share: f64| progress(RUN + (1.0 - RUN) * share);
-    simulation.concluded(ending, Vec::new(), options, &progress).map(Some)
+    simulation.concluded(ending, Vec::new(), repeats, options, &progress).map(Some)
 }
 
 /// Takes out the conditions that hold what the simulator gives.

@@ -1,6 +1,6 @@
 //! What is to be said of the runs.
 
-use gumption_emulator::{Ending, GOAL, Open};
+use gumption_emulator::{Ending, GOAL, Open, OutputScatter, Scatter};
 use gumption_engine::decimal::significant;
 use gumption_engine::fact;
 use gumption_engine::fact::{Argument, Fact};
@@ -39,4 +39,20 @@ pub(super) fn runs(runs: usize, unseen: Option<f64>) -> Fact {
         }
         None => fact!("simulator.runs", runs),
     }
+}
+
+/// How the outputs of a noisy simulator scatter, as so many repeats show.
+pub(super) fn scatter(case: &Case, scatter: Option<&Scatter>, repeats: usize) -> Vec<Fact> {
+    let outputs = scatter.map_or(&[][..], Scatter::outputs).iter().zip(case.described()..);
+    let note = |(of, place): (&OutputScatter, usize)| {
+        let name = case.model.conditions[place].name.as_str();
+        let number = |value: f64| Argument::Number(significant(value, 2));
+        let deviation = number(of.deviation);
+        if of.correlation == 0.0 {
+            return fact!("simulator.scatter", name, deviation, repeats);
+        }
+        let correlation = number(of.correlation);
+        fact!("simulator.scatter-correlated", name, deviation, correlation, repeats)
+    };
+    outputs.map(note).collect()
 }

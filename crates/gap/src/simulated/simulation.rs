@@ -3,7 +3,7 @@
 use std::sync::Arc;
 use std::sync::atomic::AtomicBool;
 
-use gumption_emulator::{Emulator, Ending, State, UnseenError};
+use gumption_emulator::{Emulator, Ending, Scatter, SimulatorRun, State, UnseenError};
 use gumption_inference::posterior::WeighedHypothesis;
 use gumption_inference::setup::Setup;
 use gumption_inference::simulator_states;
@@ -26,14 +26,17 @@ pub(super) struct Simulation<'c> {
 }
 
 impl<'c> Simulation<'c> {
-    /// One of which nothing is known but the runs that were kept.
+    /// One of which nothing is known but the runs at the start, those that were kept and how runs scatter.
     pub(super) fn new(
         case: &'c Case,
         runs: SimulatorRuns,
+        (start, scatter): (Vec<SimulatorRun>, Option<Scatter>),
         seed: u64,
         stop: &'c AtomicBool,
     ) -> Self {
-        let emulator = Emulator::new(runs.space.clone(), runs.units.len());
+        let mut emulator =
+            Emulator::new(runs.space.clone(), runs.units.len()).with_scatter(scatter);
+        emulator.learn(&[], &start, None);
         Self { case, runs, emulator, known: Vec::new(), seed, stop }
     }
 
@@ -80,7 +83,11 @@ impl<'c> Simulation<'c> {
         let states = asked.iter().filter_map(|effects| {
             let own = |of: &&WeighedHypothesis| case.simulator_effects(&of.effects) == *effects;
             let own: Vec<&WeighedHypothesis> = found.iter().filter(own).collect();
-            simulator_states::state(&setup, &own)
+            let state = simulator_states::state(&setup, &own)?;
+            Some(match self.emulator.scatter() {
+                Some(scatter) => state.widened(scatter),
+                None => state,
+            })
         });
         let states = states.collect();
         self.known.retain(|old| !found.iter().any(|new| new.effects == old.effects));
@@ -88,11 +95,13 @@ impl<'c> Simulation<'c> {
         Ok(states)
     }
 
-    /// The diagnosis with the emulator as it is; `more` are runs that would tell more.
+    /// The diagnosis with the emulator as it is; `more` are runs that would tell more, and `repeats` how many
+    /// runs showed how outputs scatter.
     pub(super) fn concluded(
         self,
         ending: Ending,
         more: Vec<Vec<f64>>,
+        repeats: usize,
         options: DiagnosisOptions,
         progress: &(dyn Fn(f64) + Sync),
     ) -> Result<SimulatorDiagnosis, OverrideError> {
@@ -105,10 +114,13 @@ impl<'c> Simulation<'c> {
         let named = self.case.candidates.iter().filter(is_named);
         let named: Vec<usize> = named.filter_map(|of| of.simulator).collect();
         let unseen = self.emulator.unseen(&named).map(UnseenError::median);
-        let facts =
-            std::iter::once(notes::runs(ending.runs, unseen)).chain(self.runs.failed_note());
+        let scatter = self.emulator.scatter().cloned();
+        let facts = std::iter::once(notes::runs(ending.runs, unseen))
+            .chain(notes::scatter(self.case, scatter.as_ref(), repeats))
+            .chain(self.runs.failed_note());
         diagnosis.notes.extend(facts.map(|fact| DiagnosisNote { fact }));
         let SimulatorRuns { runs, last, .. } = self.runs;
-        Ok(SimulatorDiagnosis { diagnosis, runs, last, ending, more, known: Arc::new(known) })
+        let known = Arc::new(known);
+        Ok(SimulatorDiagnosis { diagnosis, runs, last, ending, more, scatter, known })
     }
 }

@@ -1,8 +1,9 @@
 //! The runs of a simulator, each made once.
 
+use std::collections::HashMap;
 use std::sync::Arc;
 
-use gumption_emulator::{Batch, Run, Runs, SimulatorCase, SimulatorRun, Space};
+use gumption_emulator::{Batch, Run, RunHash, RunKey, Runs, SimulatorCase, SimulatorRun, Space};
 use gumption_engine::fact;
 use gumption_engine::fact::Fact;
 use gumption_engine::task::Row;
@@ -20,10 +21,14 @@ pub(super) struct SimulatorRuns {
     pub(super) runs: Runs,
     /// Those that were asked for last.
     pub(super) last: Vec<Run>,
+    /// How often each set of parameters was asked for, of a simulator whose outputs scatter: each time is
+    /// another run.
+    asked: Option<HashMap<RunHash, usize>>,
 }
 
 impl SimulatorRuns {
-    /// In some rows of a case, with those that were kept; `units` are u of each output, row by row.
+    /// In some rows of a case, with those that were kept; `units` are u of each output, row by row. Where outputs
+    /// scatter, parameters that are asked for again are run again.
     ///
     /// # Errors
     /// A case without a simulator; kept runs of other parameters.
@@ -45,8 +50,15 @@ impl SimulatorRuns {
                 space.names().join(", ")
             )));
         }
-        let names = space.names().into();
-        Ok(Self { space, given, names, units, runs: kept, last: Vec::new() })
+        Ok(Self {
+            names: space.names().into(),
+            space,
+            given,
+            units,
+            runs: kept,
+            last: Vec::new(),
+            asked: simulator.is_noisy().then(HashMap::new),
+        })
     }
 
     /// The runs of batches, made where they were not before; failed ones are left out.
@@ -58,16 +70,79 @@ impl SimulatorRuns {
         batches: Vec<Batch>,
         make: &mut MakeRuns<'_>,
     ) -> Result<Vec<(Batch, Vec<SimulatorRun>)>, OverrideError> {
-        let parameters = |batch: &Batch| -> Vec<Vec<f64>> {
-            let values = |scores: &Vec<f64>| self.space.values(&batch.effects, scores);
-            batch.scores.iter().map(values).collect()
-        };
-        let all: Vec<Vec<Vec<f64>>> = batches.iter().map(parameters).collect();
+        let mut all: Vec<Vec<RunKey>> = Vec::new();
+        for batch in &batches {
+            let values =
+                batch.scores.iter().map(|scores| self.space.values(&batch.effects, scores));
+            all.push(values.collect::<Vec<_>>().into_iter().map(|of| self.key(of)).collect());
+        }
+        self.make_missing(all.iter().flatten(), make)?;
+        let found = |key: &RunKey| self.find(key).cloned();
+        self.last = all.iter().flatten().filter_map(found).collect();
+        let mut made = Vec::new();
+        for (batch, keys) in batches.into_iter().zip(all) {
+            let mut learnt = Vec::new();
+            for (scores, key) in batch.scores.iter().zip(keys) {
+                let Some(outputs) = self.outputs(&key)? else { continue };
+                learnt.push(SimulatorRun { scores: scores.clone(), outputs });
+            }
+            made.push((batch, learnt));
+        }
+        Ok(made)
+    }
+
+    /// So many runs of the plain simulator with all inputs at their medians, made where they were not before;
+    /// failed ones are left out.
+    ///
+    /// # Errors
+    /// Those of [`SimulatorRuns::made`].
+    pub(super) fn repeats(
+        &mut self,
+        count: usize,
+        make: &mut MakeRuns<'_>,
+    ) -> Result<Vec<SimulatorRun>, OverrideError> {
+        let scores = vec![0.0; self.space.unknowns(&[]).len()];
+        let parameters = self.space.values(&[], &scores);
+        if let Some(asked) = &mut self.asked {
+            asked.insert(RunHash::of(&parameters), count);
+        }
+        let key = |repetition| RunKey { parameters: parameters.clone(), repetition };
+        let keys: Vec<RunKey> = (0..count).map(key).collect();
+        self.make_missing(keys.iter(), make)?;
+        let mut made = Vec::new();
+        for key in &keys {
+            if let Some(outputs) = self.outputs(key)? {
+                made.push(SimulatorRun { scores: scores.clone(), outputs });
+            }
+        }
+        Ok(made)
+    }
+
+    /// What tells the next run with these parameters from all others.
+    fn key(&mut self, parameters: Vec<f64>) -> RunKey {
+        let Some(asked) = &mut self.asked else { return parameters.into() };
+        let count = asked.entry(RunHash::of(&parameters)).or_default();
+        *count += 1;
+        RunKey { parameters, repetition: *count - 1 }
+    }
+
+    /// Makes the runs that were not made before, each once.
+    fn make_missing<'k>(
+        &mut self,
+        keys: impl Iterator<Item = &'k RunKey>,
+        make: &mut MakeRuns<'_>,
+    ) -> Result<(), OverrideError> {
         let mut new: Vec<ParameterSet> = Vec::new();
-        for values in all.iter().flatten() {
-            let is_known = self.runs.find(values).is_some();
-            if !is_known && !new.iter().any(|set| set.values == *values) {
-                new.push(ParameterSet { names: Arc::clone(&self.names), values: values.clone() });
+        for key in keys {
+            let is_same = |set: &ParameterSet| {
+                set.values == key.parameters && set.repetition == key.repetition
+            };
+            if self.find(key).is_none() && !new.iter().any(is_same) {
+                new.push(ParameterSet {
+                    names: Arc::clone(&self.names),
+                    values: key.parameters.clone(),
+                    repetition: key.repetition,
+                });
             }
         }
         let results = if new.is_empty() { Vec::new() } else { make(&new) };
@@ -79,44 +154,46 @@ impl SimulatorRuns {
             )));
         }
         for (set, result) in new.into_iter().zip(results) {
-            let run = Run { parameters: set.values, result };
+            let run = Run { parameters: set.values, repetition: set.repetition, result };
             self.runs.keep(run).map_err(|error| refused(error.to_string()))?;
         }
-        let found = |values: &Vec<f64>| self.runs.find(values).cloned();
-        self.last = all.iter().flatten().filter_map(found).collect();
-        let learnt = |(batch, parameters): (Batch, Vec<Vec<f64>>)| {
-            let runs = batch.scores.iter().cloned().zip(&parameters);
-            let runs = runs.filter_map(|(scores, values)| self.learnt(scores, values).transpose());
-            let runs = runs.collect::<Result<_, _>>()?;
-            Ok((batch, runs))
-        };
-        batches.into_iter().zip(all).map(learnt).collect()
+        Ok(())
     }
 
-    /// Runs that were made of a list of effects, at values of all parameters; failed ones are left out.
+    /// Whether the simulator's outputs scatter from run to run.
+    pub(super) fn is_noisy(&self) -> bool {
+        self.asked.is_some()
+    }
+
+    /// A run that was made before of a list of effects; `None` if it failed.
     ///
     /// # Errors
     /// A run with another number of values than there are rows.
-    pub(super) fn at(
+    pub(super) fn kept(
         &self,
         effects: &[usize],
-        parameters: &[Vec<f64>],
-    ) -> Result<Vec<SimulatorRun>, OverrideError> {
+        key: &RunKey,
+    ) -> Result<Option<SimulatorRun>, OverrideError> {
         let unknowns = self.space.unknowns(effects);
-        let learnt = |values: &Vec<f64>| {
-            let own: Vec<f64> = unknowns.iter().map(|&place| values[place]).collect();
-            self.learnt(self.space.scores(effects, &own), values).transpose()
-        };
-        parameters.iter().filter_map(learnt).collect()
+        let own: Vec<f64> = unknowns.iter().map(|&place| key.parameters[place]).collect();
+        let scores = self.space.scores(effects, &own);
+        let outputs = self.outputs(key)?;
+        Ok(outputs.map(|outputs| SimulatorRun { scores, outputs }))
     }
 
-    /// A run that was made at values of all parameters, counted in u; `None` if it failed.
-    fn learnt(
-        &self,
-        scores: Vec<f64>,
-        values: &[f64],
-    ) -> Result<Option<SimulatorRun>, OverrideError> {
-        let run = self.runs.find(values).and_then(|run| run.result.as_ref().ok());
+    /// Values of all parameters for a message.
+    pub(super) fn shown(&self, parameters: &[f64]) -> String {
+        self.given.shown(parameters)
+    }
+
+    /// A run, if it was made.
+    pub(super) fn find(&self, key: &RunKey) -> Option<&Run> {
+        self.runs.find_repetition(&key.parameters, key.repetition)
+    }
+
+    /// What a run gave, in u; `None` of one that failed.
+    pub(super) fn outputs(&self, key: &RunKey) -> Result<Option<Vec<f64>>, OverrideError> {
+        let run = self.find(key).and_then(|run| run.result.as_ref().ok());
         let Some(outputs) = run else { return Ok(None) };
         let rows = self.units.len();
         if outputs.len() != rows {
@@ -125,15 +202,15 @@ impl SimulatorRuns {
                 outputs.len()
             )));
         }
-        let outputs = outputs.iter().zip(&self.units).map(|(value, unit)| value / unit).collect();
-        Ok(Some(SimulatorRun { scores, outputs }))
+        let outputs = outputs.iter().zip(&self.units).map(|(value, unit)| value / unit);
+        Ok(Some(outputs.collect()))
     }
 
     /// The first run that failed, and why.
     pub(super) fn failed(&self) -> Option<(String, &str)> {
         let failed = |run: &Run| run.result.is_err();
         let run = self.runs.made().iter().find(|run| failed(run))?;
-        Some((self.given.shown(&run.parameters), run.result.as_ref().err()?))
+        Some((self.shown(&run.parameters), run.result.as_ref().err()?))
     }
 
     /// What is to be said of runs that failed.

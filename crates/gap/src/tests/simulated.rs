@@ -3,7 +3,7 @@
 use std::sync::Arc;
 use std::sync::atomic::AtomicBool;
 
-use gumption_emulator::{Parameter, Runs, SimulatorEffect, Space};
+use gumption_emulator::{Parameter, Run, RunKey, Runs, SimulatorEffect, Space};
 use gumption_engine::distribution::{Distribution, LogUniform, Normal, Rectangular, StreamKey};
 use gumption_engine::model::formula::{Scope, Typing};
 use gumption_engine::model::{InputQuantity, NumberForm, Output, Quantity};
@@ -11,7 +11,7 @@ use gumption_engine::special::normal;
 use gumption_engine::task::{Row, Task, Variable};
 use gumption_units::Unit;
 
-use crate::simulated::{ParameterSet, SimulatorDiagnosis, diagnose};
+use crate::simulated::{ParameterSet, SimulatorDiagnosis, design, diagnose, diagnose_made};
 use crate::{
     Candidate, Case, DiagnosisOptions, Effect, HypothesisKind, ModelForm, ObservedOutput,
     OverridableModel, Prior, SimulatorModel, simulator_conditions,
@@ -27,7 +27,11 @@ const LENGTH: f64 = 0.6195;
 const RELEASE: f64 = 0.3995;
 
 /// The budget of runs.
-const BUDGET: usize = 150;
+const RUNS: usize = 150;
+const BUDGET: usize = RUNS;
+
+/// The same of the noisy program.
+const NOISY_RUNS: usize = 100;
 
 /// A diagnosis that nobody stops.
 static NEVER: AtomicBool = AtomicBool::new(false);
@@ -187,7 +191,7 @@ fn the_loss_of_a_pendulum_is_named() {
     let verdict = &found.diagnosis.most_probable;
     assert_eq!(verdict.effects, ["pivot-friction"]);
     assert!(verdict.kind == HypothesisKind::Explained && verdict.probability > 0.8, "{verdict:?}");
-    assert!(count <= BUDGET && found.ending.open.is_empty(), "{count} {:?}", found.ending);
+    assert!(count <= RUNS && found.ending.open.is_empty(), "{count} {:?}", found.ending);
     assert_eq!(found.diagnosis.conditions.len(), 1);
     // the last runs are those of the simulator itself at the verdict: they leave the noise
     let last = found.last[0].result.as_ref().unwrap();
@@ -288,4 +292,138 @@ fn a_corrected_pendulum_is_predicted_where_it_was_not_measured() {
         // all rows depart together, by the errors of few parameters: four standard deviations
         assert!(error.abs() < 4.0 && u > 0.0 && u < U, "{error} {u}");
     }
+}
+
+/// A noisy program: to its angles normal numbers are added that follow from the number of the call, of so many u
+/// and with a correlation coefficient of neighbours.
+fn noisy(call: usize, set: &ParameterSet, scatter: f64, correlation: f64) -> Vec<f64> {
+    let mut uniforms = [0.0; 256];
+    StreamKey::new(7, "scatter").block(call as u64).uniform(&mut uniforms);
+    let mut before = 0.0;
+    let mut angles = run(set).unwrap();
+    for (row, (angle, uniform)) in angles.iter_mut().zip(uniforms).enumerate() {
+        let own = if row == 0 { 1.0 } else { (1.0 - correlation * correlation).sqrt() };
+        before = correlation * before + own * normal::quantile(uniform);
+        *angle += 1e3 * U * scatter * before;
+    }
+    angles
+}
+
+/// The diagnosis of a case by the noisy program, and how many runs were made for it.
+fn diagnosed_noisy(case: &mut Case, scatter: f64) -> (SimulatorDiagnosis, usize) {
+    let model = SimulatorModel::new(case.simulator.as_ref().unwrap().space().clone());
+    case.simulator = Some(Arc::new(model.noisy(true)));
+    let mut count = 0;
+    let mut one = |set: &ParameterSet| {
+        count += 1;
+        Ok(noisy(count, set, scatter, 0.0))
+    };
+    let mut make = |sets: &[ParameterSet]| sets.iter().map(&mut one).collect();
+    let options = DiagnosisOptions::new(1);
+    let of = diagnose(case, &mut make, NOISY_RUNS, no_runs(case), options, &|_| {}, &NEVER);
+    (of.unwrap().unwrap(), count)
+}
+
+/// How often a note with this key was given.
+fn notes(of: &SimulatorDiagnosis, code: &str) -> usize {
+    of.diagnosis.notes.iter().filter(|note| note.fact.key == code).count()
+}
+
+/// The program scatters by 0.3 u in each row: the friction is named, and its interval of 0.95, twice as wide as it
+/// is, holds the truth. The scatter is known to 1/sqrt(2*3*250) = 2.6 %, of which four times are allowed.
+#[test]
+fn the_loss_of_a_noisy_pendulum_is_named() {
+    let mut case = pendulum(0.0, 3e-4, &BOTH);
+    let (found, count) = diagnosed_noisy(&mut case, 0.3);
+    let verdict = &found.diagnosis.most_probable;
+    assert_eq!(verdict.effects, ["pivot-friction"]);
+    assert!(verdict.kind == HypothesisKind::Explained && verdict.probability > 0.8, "{verdict:?}");
+    let pivot = &found.diagnosis.present[0].parameters[0];
+    let [lower, upper] = pivot.interval;
+    let half = 0.5 * (upper - lower);
+    assert!((pivot.estimate - 3e-4).abs() < 2.0 * half && half < 1e-5, "{pivot:?}");
+    let scatter = found.scatter.as_ref().unwrap().outputs()[0];
+    assert!((scatter.deviation - 0.3).abs() < 0.1 * 0.3 && scatter.correlation == 0.0);
+    assert_eq!(notes(&found, "simulator.scatter"), 1);
+    assert!(count <= NOISY_RUNS && found.ending.runs == count, "{count} {:?}", found.ending);
+    let repeats = found.runs.made().iter().filter(|run| run.repetition > 0).count();
+    assert!(repeats >= 3, "{repeats}");
+}
+
+/// Data without a gap raise no alarm, though the program scatters as much as they do.
+#[test]
+fn a_noisy_pendulum_without_a_gap_raises_no_alarm() {
+    let mut case = pendulum(0.0, 0.0, &BOTH);
+    let (found, _) = diagnosed_noisy(&mut case, 1.0);
+    let verdict = &found.diagnosis.most_probable;
+    assert!(verdict.kind == HypothesisKind::None && verdict.probability > 0.8, "{verdict:?}");
+}
+
+/// A program that gives something else again is an error if it is not said to be noisy: 1 u in one row, and
+/// none where the difference is below 0.05 u in norm.
+#[test]
+fn a_program_that_does_not_repeat_is_an_error() {
+    let case = pendulum(0.0, 3e-4, &BOTH);
+    let said = |difference: f64| {
+        let mut count = 0;
+        let mut one = |set: &ParameterSet| {
+            let mut angles = run(set)?;
+            angles[41] += 1e3 * U * difference * f64::from(count);
+            // the second run is the repeat, and those after it are all alike
+            count = if count == 0 { 1 } else { 0 };
+            Ok(angles)
+        };
+        let mut make = |sets: &[ParameterSet]| sets.iter().map(&mut one).collect();
+        let options = DiagnosisOptions::new(1);
+        let budget = 60;
+        diagnose(&case, &mut make, budget, no_runs(&case), options, &|_| {}, &NEVER)
+            .map_err(|error| error.to_string())
+    };
+    let error = said(1.0).unwrap_err();
+    for part in ["differ by 1.0 standard", "`angle` in row 42", "\"noisy\": true", "noisy=True"] {
+        assert!(error.contains(part), "{error}");
+    }
+    let found = said(0.04).unwrap().unwrap();
+    assert_eq!(notes(&found, "simulator.scatter"), 0);
+}
+
+/// Runs of a design that were made elsewhere: of a program that is noisy some have the same parameters, and show
+/// its scatter.
+#[test]
+fn a_diagnosis_takes_runs_that_were_made_before() {
+    let mut case = pendulum(0.0, 3e-4, &BOTH);
+    let found = |case: &Case, scatter: f64| {
+        let mut kept = no_runs(case);
+        for (call, RunKey { parameters, repetition }) in
+            design(case, 100, 1).unwrap().into_iter().enumerate()
+        {
+            let names = case.simulator.as_ref().unwrap().space().names().into();
+            let set = ParameterSet { names, values: parameters.clone(), repetition };
+            let result = Ok(noisy(call, &set, scatter, 0.0));
+            kept.keep(Run { parameters, repetition, result }).unwrap();
+        }
+        let options = DiagnosisOptions::new(1);
+        diagnose_made(case, kept, options, &|_| {}, &NEVER).unwrap().unwrap()
+    };
+    let quiet = found(&case, 0.0);
+    assert!(quiet.scatter.is_none() && quiet.ending.runs == 100);
+    assert_eq!(quiet.diagnosis.most_probable.effects, ["pivot-friction"]);
+    // what would tell more is near the posteriors of what they leave open
+    assert!(!quiet.more.is_empty() && quiet.more.len() < 100, "{:?}", quiet.ending);
+    let model = SimulatorModel::new(case.simulator.as_ref().unwrap().space().clone());
+    case.simulator = Some(Arc::new(model.noisy(true)));
+    let scatter = found(&case, 0.3).scatter.unwrap().outputs()[0].deviation;
+    // as above
+    assert!((scatter - 0.3).abs() < 0.1 * 0.3, "{scatter:?}");
+}
+
+#[test]
+fn runs_of_other_rows_are_refused() {
+    let case = pendulum(0.0, 3e-4, &BOTH);
+    let mut kept = no_runs(&case);
+    let parameters = vec![0.62, 0.4, 0.0, 0.0];
+    kept.keep(Run { parameters, repetition: 0, result: Ok(vec![0.0; ROWS - 1]) }).unwrap();
+    let options = DiagnosisOptions::new(1);
+    let found = diagnose_made(&case, kept, options, &|_| {}, &NEVER);
+    assert!(found.unwrap_err().to_string().contains("has 249 values, and the data have 250"));
 }

@@ -461,6 +461,15 @@ const GAP: Sentences = &[
         that no single one is proposed as a measurement"),
     ("simulator.runs", "The simulator was run {runs} times. Its rows belong together, so that no single one is \
         proposed as a measurement"),
+    ("simulator.scatter", "From run to run with the same parameters {name} of the simulator scatters by \
+        {deviation} standard uncertainties of the data, as {repeats} runs at the start show. The scatter was taken \
+        as independent from row to row and the same for all parameters. The data are compared with the mean of the \
+        simulator, and what the scatter of the runs leaves unknown of it counts as an uncertainty"),
+    ("simulator.scatter-correlated", "From run to run with the same parameters {name} of the simulator scatters by \
+        {deviation} standard uncertainties of the data, as {repeats} runs at the start show. The scatter was taken \
+        as correlated over rows, with a coefficient of {correlation} between neighbours that falls as its powers, \
+        and the same for all parameters. The data are compared with the mean of the simulator, and what the \
+        scatter of the runs leaves unknown of it counts as an uncertainty"),
     ("simulator.failed", "{failed} of {runs} runs of the simulator failed, the first at {at}: {why}"),
     ("extrapolation", "{outside} of {rows} rows of the prediction lie outside of the conditions of the data. \
         No effect of the list says how the departure goes on there: smooth and composed departures are \

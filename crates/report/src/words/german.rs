@@ -508,6 +508,15 @@ const GAP: Sentences = &[
         Seine Zeilen gehören zusammen, so dass keine einzelne als Messung vorgeschlagen wird"),
     ("simulator.runs", "Der Simulator lief {runs}-mal. Seine Zeilen gehören zusammen, so dass keine einzelne als \
         Messung vorgeschlagen wird"),
+    ("simulator.scatter", "Von Lauf zu Lauf streut {name} des Simulators bei gleichen Parametern um {deviation} \
+        Standardunsicherheiten der Daten, wie {repeats} Läufe am Anfang zeigen. Die Streuung wurde als unabhängig \
+        von Zeile zu Zeile und als gleich für alle Parameter genommen. Verglichen wird mit dem Mittel des \
+        Simulators, und was die Streuung der Läufe daran offen lässt, zählt als Unsicherheit"),
+    ("simulator.scatter-correlated", "Von Lauf zu Lauf streut {name} des Simulators bei gleichen Parametern um \
+        {deviation} Standardunsicherheiten der Daten, wie {repeats} Läufe am Anfang zeigen. Die Streuung wurde als \
+        über die Zeilen korreliert genommen, mit einem Koeffizienten von {correlation} zwischen Nachbarn, der mit \
+        seinen Potenzen fällt, und als gleich für alle Parameter. Verglichen wird mit dem Mittel des Simulators, \
+        und was die Streuung der Läufe daran offen lässt, zählt als Unsicherheit"),
     ("simulator.failed", "{failed} von {runs} Läufen des Simulators schlugen fehl, der erste bei {at}: {why}"),
     ("extrapolation", "{outside} von {rows} Zeilen der Vorhersage liegen außerhalb der Bedingungen der Daten. \
         Kein Effekt der Liste sagt, wie die Abweichung dort weitergeht: Glatte und zusammengesetzte \
