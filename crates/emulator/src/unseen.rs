@@ -2,7 +2,6 @@
 
 use crate::singular::SingularVectors;
 use gumption_engine::linalg::dot;
-use gumption_engine::number::median;
 
 /// Directions of errors are kept until what is left has this norm over all rows, in u.
 const LEFT: f64 = 1e-3;
@@ -24,9 +23,9 @@ impl UnseenError {
         Self { norms, factor: SingularVectors::of(errors, LEFT) }
     }
 
-    /// The median of the norms, of an even number of them the upper one of the two.
-    pub fn median(&self) -> f64 {
-        median(self.norms.clone()).unwrap_or(0.0)
+    /// The root mean square of the norms: what the covariance that the error leaves has in all rows together.
+    pub fn norm(&self) -> f64 {
+        (dot(&self.norms, &self.norms) / self.norms.len().max(1) as f64).sqrt()
     }
 }
 
@@ -38,7 +37,7 @@ mod tests {
     #[test]
     fn the_factor_is_that_of_the_mean_square() {
         let unseen = UnseenError::of(&[vec![3.0, 0.0, 0.0], vec![0.0, 0.0, -4.0]]);
-        assert_eq!((&unseen.norms[..], unseen.median()), (&[3.0, 4.0][..], 4.0));
+        assert_eq!((&unseen.norms[..], unseen.norm()), (&[3.0, 4.0][..], 12.5_f64.sqrt()));
         let squares: Vec<f64> = unseen.factor.sizes.iter().map(|size| size * size).collect();
         assert!((squares[0] - 8.0).abs() < 1e-14 && (squares[1] - 4.5).abs() < 1e-14);
         assert_eq!(unseen.factor.vectors[0][2].abs(), 1.0);

@@ -1,7 +1,8 @@
 //! The diagnosis of a simulator that is known by its runs.
 //!
 //! A [`Plan`] says which runs come next and which hypotheses to look at; an emulator learns from the runs, and
-//! the inference takes its word for the simulator's. Once the plan ends the diagnosis is made as of any model.
+//! the inference takes its word for the simulator's. Then all hypotheses are weighed as of any model, and run at
+//! draws of what is to be reported, until the emulator is right there.
 //! Predictions in other rows take a few runs there, at draws of the posteriors.
 
 mod case;
@@ -9,6 +10,7 @@ mod elsewhere;
 mod notes;
 mod simulation;
 mod simulator_runs;
+mod weighed_states;
 
 use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
@@ -17,15 +19,20 @@ pub use gumption_emulator::{
     Ending, Open, Parameter, Run, RunHash, RunResult, Runs, RunsError, Simulator, SimulatorCase,
     SimulatorCondition, SimulatorEffect, SimulatorQuantity, Space, SpaceError,
 };
-use gumption_emulator::{Plan, Step, UnseenError};
+use gumption_emulator::{Plan, UnseenError};
+use gumption_inference::noise::prior_widths::OtherPriors;
+use gumption_inference::posterior::Effort;
+use gumption_inference::tangent;
 
 pub use self::case::simulator_case;
 pub use self::elsewhere::{PREDICTION_RUNS, Predictions};
-use self::simulation::Simulation;
+use self::simulation::{Followed, Simulation};
 use self::simulator_runs::SimulatorRuns;
-use crate::diagnose::{DiagnosisOptions, diagnosed};
+use self::weighed_states::weighed_states;
+use crate::diagnose::{DiagnosisOptions, diagnosed_as};
 use crate::diagnosis::{Diagnosis, DiagnosisNote};
 use crate::known_gap::KnownGap;
+use crate::weighed::Weighed;
 use crate::{Candidate, Case, OverrideError};
 
 /// What a simulator is called with: all inputs and all parameters of its effects, always.
@@ -59,6 +66,12 @@ pub type MakeRuns<'m> = dyn FnMut(&[ParameterSet]) -> Vec<RunResult> + 'm;
 /// The share of the work that is done when the last run is made.
 const RUN: f64 = 0.8;
 
+/// The inputs at which a simulator is linear beside departures are found anew so often at most.
+const MOVES: usize = 2;
+
+/// Where they move by less than this, as scores, they stay.
+const MOVED: f64 = 0.1;
+
 /// Diagnoses a case with a simulator, of which `make` makes at most `budget` runs less those among `kept` that
 /// the plan asks for. `progress` is told the share that is done. Once `stop` is set no run is asked for, and
 /// `make` may give back fewer than it was asked for: `None` where the last run was not made yet, else what is
@@ -81,45 +94,55 @@ pub fn diagnose(
         return Err(refused("the case has no simulator".to_owned()));
     };
     let runs = SimulatorRuns::new(simulator.space().clone(), case.simulator_units(), kept)?;
-    let mut plan = Plan::new(simulator.space().clone(), budget, options.seed)
+    let plan = Plan::new(simulator.space().clone(), budget, options.seed)
         .map_err(|error| refused(error.to_string()))?;
-    let mut simulation = Simulation::new(case, runs, options.seed, stop);
-    let is_stopped = || stop.load(Ordering::Relaxed);
-    let mut states = Vec::new();
-    let ending = loop {
-        match plan.next(std::mem::take(&mut states)) {
-            _ if is_stopped() => return Ok(None),
-            Step::Run(batches) => {
-                let made = match simulation.runs.made(batches, make) {
-                    Err(_) if is_stopped() => return Ok(None),
-                    made => made?,
-                };
-                for (batch, made) in made {
-                    let learnt =
-                        simulation.emulator.learn(&batch.effects, &made, batch.focus.clone());
-                    plan.learnt(&batch, learnt.unseen.as_ref());
-                }
-                progress(RUN * plan.used() as f64 / budget as f64);
+    let mut simulation = Simulation::new(case, plan, runs, options.seed, stop);
+    let while_run = |used: usize| progress(RUN * used as f64 / budget as f64);
+    if simulation.follow(Vec::new(), make, &while_run)? == Followed::Stopped {
+        return Ok(None);
+    }
+    let effort = Effort { stop: Some(stop), ..Effort::FULL };
+    let mut moves = 0;
+    loop {
+        let emulated = simulation.emulated()?;
+        let others = OtherPriors::of(&emulated);
+        let weighed = Weighed::new(&emulated, &others, options.seed, effort, &|_| {});
+        if moves < MOVES && !stop.load(Ordering::Relaxed) {
+            let Weighed { setup, discrepancy, posterior, .. } = &weighed;
+            let moved = tangent::beside_departure(setup, discrepancy, posterior, MOVED);
+            if moved.is_some() {
+                moves += 1;
+                simulation.linear_at = moved;
+                continue;
             }
-            Step::Infer(asked) => states = simulation.inferred(asked)?,
-            Step::Done(ending) => break ending,
         }
-    };
-    let emulated = simulation.emulated()?;
-    let progress = |share: f64| progress(RUN + (1.0 - RUN) * share);
-    let (mut diagnosis, known) = diagnosed(&emulated, options, &progress, Some(stop))?;
-    without_simulated(&mut diagnosis, case.described());
-    diagnosis.notes.extend(notes::open(case, &ending));
-    let own = &diagnosis.most_probable.effects;
-    let is_named = |of: &&Candidate| own.contains(&of.effect.name);
-    let named: Vec<usize> =
-        case.candidates.iter().filter(is_named).filter_map(|of| of.simulator).collect();
-    let unseen = simulation.emulator.unseen(&named).map(UnseenError::median);
-    let facts =
-        std::iter::once(notes::runs(ending.runs, unseen)).chain(simulation.runs.failed_note());
-    diagnosis.notes.extend(facts.map(|fact| DiagnosisNote { fact }));
-    let SimulatorRuns { runs, last, .. } = simulation.runs;
-    Ok(Some(SimulatorDiagnosis { diagnosis, runs, last, ending, known: Arc::new(known) }))
+        let states = weighed_states(&weighed.setup, &weighed.posterior, 0.0);
+        if simulation.follow(states, make, &while_run)? == Followed::ToBeWeighed {
+            continue;
+        }
+        let progress = |share: f64| progress(RUN + (1.0 - RUN) * share);
+        let (mut diagnosis, known) =
+            diagnosed_as(&emulated, weighed, options, &progress, Some(stop));
+        without_simulated(&mut diagnosis, case.described());
+        let ending = simulation.plan.ending();
+        diagnosis.notes.extend(notes::open(case, &ending));
+        let own = &diagnosis.most_probable.effects;
+        let is_named = |of: &&Candidate| own.contains(&of.effect.name);
+        let named: Vec<usize> =
+            case.candidates.iter().filter(is_named).filter_map(|of| of.simulator).collect();
+        let unseen = simulation.emulator.unseen(&named).map(UnseenError::norm);
+        let facts =
+            std::iter::once(notes::runs(ending.runs, unseen)).chain(simulation.runs.failed_note());
+        diagnosis.notes.extend(facts.map(|fact| DiagnosisNote { fact }));
+        let SimulatorRuns { runs, last, .. } = simulation.runs;
+        return Ok(Some(SimulatorDiagnosis {
+            diagnosis,
+            runs,
+            last,
+            ending,
+            known: Arc::new(known),
+        }));
+    }
 }
 
 /// Takes out the conditions that hold what the simulator gives.

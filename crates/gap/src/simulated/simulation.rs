@@ -1,21 +1,36 @@
 //! A simulator that is being run, and what its emulator knows so far.
 
-use std::sync::atomic::AtomicBool;
+use std::sync::atomic::{AtomicBool, Ordering};
 
-use gumption_emulator::{Emulator, State};
+use gumption_emulator::{Emulator, Plan, State, Step};
 use gumption_inference::posterior::WeighedHypothesis;
 use gumption_inference::setup::Setup;
 use gumption_inference::simulator_states;
+use gumption_inference::tangent::LinearAt;
 
-use super::refused;
 use super::simulator_runs::SimulatorRuns;
+use super::{MakeRuns, refused};
 use crate::{Case, OverrideError};
+
+/// Why a plan was followed no further.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Followed {
+    /// All hypotheses are to be weighed as they are to be reported.
+    ToBeWeighed,
+    /// The last run was made.
+    Done,
+    /// Somebody stopped it.
+    Stopped,
+}
 
 /// A simulator that is being run.
 pub(super) struct Simulation<'c> {
     case: &'c Case,
+    pub(super) plan: Plan,
     pub(super) runs: SimulatorRuns,
     pub(super) emulator: Emulator,
+    /// The inputs at which it is linear beside departures; `None` for the estimates.
+    pub(super) linear_at: Option<LinearAt>,
     /// The hypotheses as they were looked at last.
     known: Vec<WeighedHypothesis>,
     seed: u64,
@@ -26,12 +41,13 @@ impl<'c> Simulation<'c> {
     /// One of which nothing is known but the runs that were kept.
     pub(super) fn new(
         case: &'c Case,
+        plan: Plan,
         runs: SimulatorRuns,
         seed: u64,
         stop: &'c AtomicBool,
     ) -> Self {
         let emulator = Emulator::new(runs.space.clone(), runs.units.len());
-        Self { case, runs, emulator, known: Vec::new(), seed, stop }
+        Self { case, plan, runs, emulator, linear_at: None, known: Vec::new(), seed, stop }
     }
 
     /// The case with the emulator as it is.
@@ -44,8 +60,49 @@ impl<'c> Simulation<'c> {
                 None => "no run of the plain simulator is near the data".to_owned(),
             }));
         }
-        let emulated = self.case.emulated(self.emulator.clone(), self.runs.units.clone());
+        let (emulator, units) = (self.emulator.clone(), self.runs.units.clone());
+        let emulated = self.case.emulated(emulator, units, self.linear_at.clone());
         emulated.ok_or_else(|| refused("the case has no simulator".to_owned()))
+    }
+
+    /// Follows the plan, whose last question these states answer, until it asks for all hypotheses or ends;
+    /// `progress` is told how many runs were used.
+    ///
+    /// # Errors
+    /// Runs with another number of values than there are rows; no run of the plain simulator.
+    pub(super) fn follow(
+        &mut self,
+        mut states: Vec<State>,
+        make: &mut MakeRuns<'_>,
+        progress: &dyn Fn(usize),
+    ) -> Result<Followed, OverrideError> {
+        loop {
+            let step = self.plan.next(std::mem::take(&mut states));
+            if self.is_stopped() {
+                return Ok(Followed::Stopped);
+            }
+            match step {
+                Step::Run(batches) => {
+                    let made = match self.runs.made(batches, make) {
+                        Err(_) if self.is_stopped() => return Ok(Followed::Stopped),
+                        made => made?,
+                    };
+                    for (batch, made) in made {
+                        let learnt =
+                            self.emulator.learn(&batch.effects, &made, batch.focus.clone());
+                        self.plan.learnt(&batch, learnt.unseen.as_ref());
+                    }
+                    progress(self.plan.used());
+                }
+                Step::Infer(asked) => states = self.inferred(asked)?,
+                Step::Weigh => return Ok(Followed::ToBeWeighed),
+                Step::Done(_) => return Ok(Followed::Done),
+            }
+        }
+    }
+
+    fn is_stopped(&self) -> bool {
+        self.stop.load(Ordering::Relaxed)
     }
 
     /// The states of lists of the simulator's effects, each alone and with one effect that formulas make
@@ -76,7 +133,8 @@ impl<'c> Simulation<'c> {
             simulator_states::explored(&setup, hypotheses, &self.known, self.seed, Some(self.stop));
         let states = asked.iter().filter_map(|effects| {
             let own = |of: &&WeighedHypothesis| case.simulator_effects(&of.effects) == *effects;
-            let own: Vec<&WeighedHypothesis> = found.iter().filter(own).collect();
+            let own = found.iter().filter(own);
+            let own: Vec<(f64, &WeighedHypothesis)> = own.map(|of| (of.ln_weight(), of)).collect();
             simulator_states::state(&setup, &own)
         });
         let states = states.collect();

@@ -16,7 +16,7 @@ pub(super) struct SimulatorRuns {
     /// What the values of a run are counted in: u, output after output.
     pub(super) units: Vec<f64>,
     pub(super) runs: Runs,
-    /// Those that were asked for last.
+    /// Those of the first batch that was asked for last.
     pub(super) last: Vec<Run>,
 }
 
@@ -70,7 +70,7 @@ impl SimulatorRuns {
             self.runs.keep(run).map_err(|error| refused(error.to_string()))?;
         }
         let found = |values: &Vec<f64>| self.runs.find(values).cloned();
-        self.last = all.iter().flatten().filter_map(found).collect();
+        self.last = all.iter().take(1).flatten().filter_map(found).collect();
         let rows = self.units.len();
         let mut made = Vec::new();
         for (batch, parameters) in batches.into_iter().zip(all) {

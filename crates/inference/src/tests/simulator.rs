@@ -75,7 +75,7 @@ fn emulated() -> Case {
         });
         emulator.learn(&effects, &runs.collect::<Vec<_>>(), None);
     }
-    case.emulated(emulator, units).unwrap()
+    case.emulated(emulator, units, None).unwrap()
 }
 
 /// The tolerance of a value is a twentieth of u, of a derivative what that is over half a standard deviation

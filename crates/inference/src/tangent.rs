@@ -1,0 +1,132 @@
+//! The model as it is linear in its inputs.
+//!
+//! Departures that no candidate makes are weighed with the inputs as if these acted linearly: about the
+//! estimates, unless another point is known. A simulated trajectory bends: one standard uncertainty of a length
+//! moves the swings of a pendulum by a tenth of a turn, and what it does to second order is then more than the
+//! noise. There the model is linear about the inputs that are most probable beside the departure.
+
+use gumption_engine::number::Column;
+use gumption_engine::task::Row;
+
+use crate::Case;
+use crate::discrepancy::{Discrepancy, Weighted};
+use crate::integral::search::{self, Mode};
+use crate::latent::Role;
+use crate::posterior::{HOPELESS, Posterior, ln_weight};
+use crate::setup::Setup;
+
+/// Inputs at which a model is linear.
+#[derive(Clone, Debug, PartialEq)]
+pub struct LinearAt {
+    /// The values of all inputs.
+    values: Vec<f64>,
+    /// The places of those that are unknown quantities, each with its score.
+    scores: Vec<(usize, f64)>,
+}
+
+/// The outputs of a model in a row as linear functions of the inputs.
+#[derive(Clone, Debug)]
+pub struct Tangent {
+    /// What the model says at the inputs at which it is linear.
+    pub touching: Vec<f64>,
+    /// What the linear functions say at the estimates.
+    pub at_estimates: Vec<f64>,
+    /// Partial derivatives of each output with respect to the variables.
+    pub gradients: Vec<Vec<f64>>,
+}
+
+impl Tangent {
+    /// Some of the outputs.
+    pub(crate) fn of_outputs(&self, outputs: &[usize]) -> Self {
+        let some = |of: &[f64]| outputs.iter().map(|&output| of[output]).collect();
+        Self {
+            touching: some(&self.touching),
+            at_estimates: some(&self.at_estimates),
+            gradients: outputs.iter().map(|&output| self.gradients[output].clone()).collect(),
+        }
+    }
+}
+
+impl Case {
+    /// The model in a row as linear functions of the inputs.
+    pub fn tangent(&self, row: &Row) -> Tangent {
+        let estimates = row.estimates();
+        let mut at = estimates.clone();
+        if let Some(linear) = self.linear_at() {
+            at[..linear.values.len()].copy_from_slice(&linear.values);
+        }
+        let (touching, gradients) = self.gradients(&at);
+        let inputs = row.distributions.len();
+        let linear = |(value, gradient): (&f64, &Vec<f64>)| {
+            let moves = gradient.iter().zip(estimates.iter().zip(&at)).take(inputs);
+            let moved = moves.filter(|(_, (to, from))| to != from);
+            value + moved.map(|(slope, (to, from))| slope * (to - from)).sum::<f64>()
+        };
+        let at_estimates = touching.iter().zip(&gradients).map(linear).collect();
+        Tangent { touching, at_estimates, gradients }
+    }
+
+    /// Whether the model is linear about the estimates of its inputs.
+    pub(crate) fn is_linear_at_estimates(&self) -> bool {
+        self.linear_at().is_none()
+    }
+
+    fn linear_at(&self) -> Option<&LinearAt> {
+        self.simulator.as_ref()?.linear_at.as_ref()
+    }
+
+    /// The scores of the unknown quantities of a setup at the inputs at which the model is linear: those of
+    /// the noise are 0.
+    pub(crate) fn linear_scores(&self, roles: &[Role]) -> Vec<f64> {
+        let known = self.linear_at().map_or(&[][..], |at| &at.scores);
+        let score = |role: &Role| match role {
+            Role::Variable { place, .. } => {
+                known.iter().find(|(of, _)| of == place).map_or(0.0, |(_, score)| *score)
+            }
+            Role::Noise { .. } | Role::Power { .. } => 0.0,
+        };
+        roles.iter().map(score).collect()
+    }
+}
+
+/// The simulator's inputs that are most probable beside the heaviest departure without effects, where they are
+/// further than `least` from those at which it is linear now, as scores, and the departure could be what is
+/// true there; `None` elsewhere.
+pub fn beside_departure(
+    setup: &Setup<'_>,
+    discrepancy: &Discrepancy,
+    posterior: &Posterior,
+    least: f64,
+) -> Option<LinearAt> {
+    let simulator = setup.case.simulator.as_ref()?;
+    let kind: &Weighted = posterior.unexplained.kinds.first()?;
+    let with = setup.with_functions(&discrepancy.columns(setup, kind));
+    let likelihood = with.likelihood(&[]);
+    let now = setup.case.linear_scores(&likelihood.roles);
+    let none = posterior.hypotheses.iter().find(|of| of.effects.is_empty());
+    let modes = none.map_or(&[][..], |none| &none.evidence.modes);
+    let starts = modes.iter().map(|mode| mode.scores.clone()).chain([now.clone()]);
+    let found: Vec<Mode> = search::modes(&likelihood, &starts.collect::<Vec<_>>(), 1);
+    let mode = found.first()?;
+    if ln_weight(posterior.prior, mode.ln_evidence()) < posterior.ln_leading() - HOPELESS {
+        return None;
+    }
+    let is_input = |role: &Role| matches!(role, Role::Variable { .. });
+    let places = || likelihood.roles.iter().enumerate().filter(|(_, role)| is_input(role));
+    if places().all(|(place, _)| (mode.scores[place] - now[place]).abs() <= least) {
+        return None;
+    }
+    let columns: Vec<Column> = likelihood.columns(std::slice::from_ref(&mode.scores));
+    let mixed = likelihood.mixed(&columns);
+    let estimates = setup.case.task.rows.first()?.estimates();
+    let mut at = LinearAt {
+        values: estimates[..simulator.space().inputs()].to_vec(),
+        scores: Vec::new(),
+    };
+    for (place, role) in places() {
+        let Role::Variable { place: input, .. } = role else { continue };
+        at.values[*input] = role.map()?.value(mixed[place].0[0]);
+        at.scores.push((*input, mode.scores[place]));
+    }
+    Some(at)
+}
