@@ -27,6 +27,10 @@ const CHECKS: usize = 3;
 /// Hypotheses of at least this probability are run at draws of what is to be reported.
 const PROBABLE: f64 = 0.01;
 
+/// An error that moves a probability by less than this does not count. One of e u in norm moves the logarithm
+/// of an evidence by about e, and a probability p by p (1 - p) e.
+const MOVED: f64 = 0.03;
+
 /// The share of the budget that fills the space before anything is inferred: one third.
 const START: usize = 3;
 
@@ -67,8 +71,9 @@ const ROUNDS: usize = 20;
 ///
 /// Then all hypotheses are weighed as they are to be reported, [`Step::Weigh`], and those above a probability
 /// of 0.01 are run at draws of these posteriors, which other noises and departures beside the effects may have
-/// moved. Where the emulator was off by more than 0.5 u they are weighed again, three times at most. A tenth
-/// of the budget is kept for this. The last runs are those at what is reported.
+/// moved. Where the emulator was off by more than 0.5 u, and by so much that it moves a probability by 0.03,
+/// they are weighed again, three times at most. A tenth of the budget is kept for this. The last runs are those
+/// at what is reported.
 ///
 /// The plan follows from its seed and from what it is told: somebody who made its runs before makes none
 /// again.
@@ -250,7 +255,12 @@ impl Plan {
     }
 
     fn note_checked(&mut self) {
-        let known = self.weighed.iter().filter(|state| self.is_known(&state.effects));
+        let known = self.weighed.iter().filter(|state| {
+            let probability = elementary::exp(state.score);
+            let error = self.errors.get(&state.effects).map(|errors| errors.last);
+            let moved = error.map(|error| probability * (1.0 - probability) * error);
+            self.is_known(&state.effects) || moved.is_some_and(|moved| moved < MOVED)
+        });
         let known: Vec<Vec<usize>> = known.map(|state| state.effects.clone()).collect();
         self.checked.extend(known);
     }
@@ -322,9 +332,11 @@ impl Plan {
         self.budget.saturating_sub(self.used + VERDICT)
     }
 
-    /// Those of them that are not kept for what is to be reported.
+    /// Those of them that are not kept for what is to be reported. Every effect is run at its own best point
+    /// before any are.
     fn left_in_rounds(&self) -> usize {
-        self.left().saturating_sub(self.budget / KEPT)
+        let kept = if self.phase == Phase::First { 0 } else { self.budget / KEPT };
+        self.left().saturating_sub(kept)
     }
 
     /// No effect and every one alone.

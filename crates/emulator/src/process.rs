@@ -3,7 +3,7 @@
 use gumption_engine::linalg::dot;
 
 use crate::conditioned::{Conditioned, Target};
-use crate::matern::correlation;
+use crate::matern::{correlation, correlations};
 use crate::trend::Trend;
 
 /// Functions of several variables that vary at the same lengths, each known at the same points: Gaussian
@@ -53,8 +53,7 @@ impl GaussianProcess {
     /// The expected value of each function at a point.
     pub fn values(&self, point: &[f64]) -> Vec<f64> {
         let Conditioned { points, inverse_squares, .. } = &self.conditioned;
-        let correlations: Vec<f64> =
-            points.iter().map(|known| correlation(point, known, inverse_squares).value).collect();
+        let correlations = correlations(point, points, inverse_squares);
         self.targets.iter().map(|target| target.value(point, &correlations)).collect()
     }
 

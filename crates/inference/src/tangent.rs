@@ -5,14 +5,13 @@
 //! moves the swings of a pendulum by a tenth of a turn, and what it does to second order is then more than the
 //! noise. There the model is linear about the inputs that are most probable beside the departure.
 
-use gumption_engine::number::Column;
 use gumption_engine::task::Row;
 
 use crate::Case;
-use crate::discrepancy::{Discrepancy, Weighted};
-use crate::integral::search::{self, Mode};
-use crate::latent::Role;
-use crate::posterior::{HOPELESS, Posterior, ln_weight};
+use crate::data::by_rows;
+use crate::discrepancy::Discrepancy;
+use crate::integral::search;
+use crate::latent::{Map, Role};
 use crate::setup::Setup;
 
 /// Inputs at which a model is linear.
@@ -90,43 +89,33 @@ impl Case {
 }
 
 /// The simulator's inputs that are most probable beside the heaviest departure without effects, where they are
-/// further than `least` from those at which it is linear now, as scores, and the departure could be what is
-/// true there; `None` elsewhere.
-pub fn beside_departure(
-    setup: &Setup<'_>,
-    discrepancy: &Discrepancy,
-    posterior: &Posterior,
-    least: f64,
-) -> Option<LinearAt> {
+/// further than `least` from those at which it is linear now, as scores; `None` elsewhere. `known` are points to
+/// look from, scores of the unknown quantities without effects.
+pub fn beside_departure(setup: &Setup<'_>, known: &[Vec<f64>], least: f64) -> Option<LinearAt> {
     let simulator = setup.case.simulator.as_ref()?;
-    let kind: &Weighted = posterior.unexplained.kinds.first()?;
-    let with = setup.with_functions(&discrepancy.columns(setup, kind));
+    let discrepancy = Discrepancy::new(setup);
+    let residuals = by_rows(&setup.data.linear_residuals());
+    let departure = discrepancy.evidence(setup, &residuals, f64::NEG_INFINITY);
+    let with = setup.with_functions(&discrepancy.columns(setup, departure.kinds.first()?));
     let likelihood = with.likelihood(&[]);
     let now = setup.case.linear_scores(&likelihood.roles);
-    let none = posterior.hypotheses.iter().find(|of| of.effects.is_empty());
-    let modes = none.map_or(&[][..], |none| &none.evidence.modes);
-    let starts = modes.iter().map(|mode| mode.scores.clone()).chain([now.clone()]);
-    let found: Vec<Mode> = search::modes(&likelihood, &starts.collect::<Vec<_>>(), 1);
-    let mode = found.first()?;
-    if ln_weight(posterior.prior, mode.ln_evidence()) < posterior.ln_leading() - HOPELESS {
+    let mut starts = known.to_vec();
+    starts.push(now.clone());
+    let mode = search::modes(&likelihood, &starts, 1).into_iter().next()?;
+    let inputs = likelihood.roles.iter().enumerate().filter_map(|(place, role)| match role {
+        Role::Variable { place: input, .. } => Some((place, *input, role.map()?)),
+        Role::Noise { .. } | Role::Power { .. } => None,
+    });
+    let inputs: Vec<(usize, usize, &Map)> = inputs.collect();
+    if inputs.iter().all(|(place, ..)| (mode.scores[*place] - now[*place]).abs() <= least) {
         return None;
     }
-    let is_input = |role: &Role| matches!(role, Role::Variable { .. });
-    let places = || likelihood.roles.iter().enumerate().filter(|(_, role)| is_input(role));
-    if places().all(|(place, _)| (mode.scores[place] - now[place]).abs() <= least) {
-        return None;
+    let mixed = likelihood.mixed(&likelihood.columns(std::slice::from_ref(&mode.scores)));
+    let mut values = setup.case.task.rows.first()?.estimates();
+    values.truncate(simulator.space().inputs());
+    for (place, input, map) in &inputs {
+        values[*input] = map.value(mixed[*place].0[0]);
     }
-    let columns: Vec<Column> = likelihood.columns(std::slice::from_ref(&mode.scores));
-    let mixed = likelihood.mixed(&columns);
-    let estimates = setup.case.task.rows.first()?.estimates();
-    let mut at = LinearAt {
-        values: estimates[..simulator.space().inputs()].to_vec(),
-        scores: Vec::new(),
-    };
-    for (place, role) in places() {
-        let Role::Variable { place: input, .. } = role else { continue };
-        at.values[*input] = role.map()?.value(mixed[place].0[0]);
-        at.scores.push((*input, mode.scores[place]));
-    }
-    Some(at)
+    let scores = inputs.iter().map(|(place, input, _)| (*input, mode.scores[*place])).collect();
+    Some(LinearAt { values, scores })
 }

@@ -13,7 +13,7 @@ mod simulator_runs;
 mod weighed_states;
 
 use std::sync::Arc;
-use std::sync::atomic::{AtomicBool, Ordering};
+use std::sync::atomic::AtomicBool;
 
 pub use gumption_emulator::{
     Ending, Open, Parameter, Run, RunHash, RunResult, Runs, RunsError, Simulator, SimulatorCase,
@@ -22,7 +22,6 @@ pub use gumption_emulator::{
 use gumption_emulator::{Plan, UnseenError};
 use gumption_inference::noise::prior_widths::OtherPriors;
 use gumption_inference::posterior::Effort;
-use gumption_inference::tangent;
 
 pub use self::case::simulator_case;
 pub use self::elsewhere::{PREDICTION_RUNS, Predictions};
@@ -66,12 +65,6 @@ pub type MakeRuns<'m> = dyn FnMut(&[ParameterSet]) -> Vec<RunResult> + 'm;
 /// The share of the work that is done when the last run is made.
 const RUN: f64 = 0.8;
 
-/// The inputs at which a simulator is linear beside departures are found anew so often at most.
-const MOVES: usize = 2;
-
-/// Where they move by less than this, as scores, they stay.
-const MOVED: f64 = 0.1;
-
 /// Diagnoses a case with a simulator, of which `make` makes at most `budget` runs less those among `kept` that
 /// the plan asks for. `progress` is told the share that is done. Once `stop` is set no run is asked for, and
 /// `make` may give back fewer than it was asked for: `None` where the last run was not made yet, else what is
@@ -102,20 +95,11 @@ pub fn diagnose(
         return Ok(None);
     }
     let effort = Effort { stop: Some(stop), ..Effort::FULL };
-    let mut moves = 0;
+    simulation.move_linear()?;
     loop {
         let emulated = simulation.emulated()?;
         let others = OtherPriors::of(&emulated);
         let weighed = Weighed::new(&emulated, &others, options.seed, effort, &|_| {});
-        if moves < MOVES && !stop.load(Ordering::Relaxed) {
-            let Weighed { setup, discrepancy, posterior, .. } = &weighed;
-            let moved = tangent::beside_departure(setup, discrepancy, posterior, MOVED);
-            if moved.is_some() {
-                moves += 1;
-                simulation.linear_at = moved;
-                continue;
-            }
-        }
         let states = weighed_states(&weighed.setup, &weighed.posterior, 0.0);
         if simulation.follow(states, make, &while_run)? == Followed::ToBeWeighed {
             continue;

@@ -6,11 +6,17 @@ use gumption_emulator::{Emulator, Plan, State, Step};
 use gumption_inference::posterior::WeighedHypothesis;
 use gumption_inference::setup::Setup;
 use gumption_inference::simulator_states;
-use gumption_inference::tangent::LinearAt;
+use gumption_inference::tangent::{self, LinearAt};
 
 use super::simulator_runs::SimulatorRuns;
 use super::{MakeRuns, refused};
 use crate::{Case, OverrideError};
+
+/// The inputs at which a simulator is linear beside departures are found anew so often at most.
+const MOVES: usize = 3;
+
+/// Where they move by less than this, as scores, they stay.
+const MOVED: f64 = 0.1;
 
 /// Why a plan was followed no further.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -30,7 +36,7 @@ pub(super) struct Simulation<'c> {
     pub(super) runs: SimulatorRuns,
     pub(super) emulator: Emulator,
     /// The inputs at which it is linear beside departures; `None` for the estimates.
-    pub(super) linear_at: Option<LinearAt>,
+    linear_at: Option<LinearAt>,
     /// The hypotheses as they were looked at last.
     known: Vec<WeighedHypothesis>,
     seed: u64,
@@ -99,6 +105,22 @@ impl<'c> Simulation<'c> {
                 Step::Done(_) => return Ok(Followed::Done),
             }
         }
+    }
+
+    /// Finds the inputs at which the simulator is linear beside departures.
+    pub(super) fn move_linear(&mut self) -> Result<(), OverrideError> {
+        for _ in 0..MOVES {
+            let case = self.emulated()?;
+            let plain = self.known.iter().filter(|of| of.effects.is_empty());
+            let modes = plain.flat_map(|of| &of.evidence.modes).map(|mode| mode.scores.clone());
+            let modes: Vec<Vec<f64>> = modes.collect();
+            let moved = tangent::beside_departure(&Setup::new(&case), &modes, MOVED);
+            if moved.is_none() {
+                break;
+            }
+            self.linear_at = moved;
+        }
+        Ok(())
     }
 
     fn is_stopped(&self) -> bool {

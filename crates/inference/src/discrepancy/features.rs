@@ -110,7 +110,8 @@ impl Axes {
             FeatureAxis::spaced(values.collect())
         });
         let sims = (0..data.outputs.len()).map(|output| {
-            let values: Vec<f64> = data.points.iter().map(|point| point.tangent.touching[output]).collect();
+            let values: Vec<f64> =
+                data.points.iter().map(|point| point.tangent.touching[output]).collect();
             FeatureAxis::linear(&values)
         });
         let measured = case.measured();

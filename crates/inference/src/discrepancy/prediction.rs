@@ -26,12 +26,7 @@ struct InRows {
 }
 
 impl InRows {
-    fn of(
-        setup: &Setup<'_>,
-        base: Option<&Arc<Base>>,
-        rows: &[Row],
-        tangents: &[Tangent],
-    ) -> Self {
+    fn of(setup: &Setup<'_>, base: Option<&Arc<Base>>, rows: &[Row], tangents: &[Tangent]) -> Self {
         let Some(base) = base else {
             let sims = tangents.iter().flat_map(|of| of.at_estimates.clone()).collect();
             let residuals = by_rows(&setup.data.linear_residuals());
