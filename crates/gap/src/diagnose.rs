@@ -110,23 +110,10 @@ pub(crate) fn diagnosed(
         let reason = "the outputs are those of a simulator, which was not run".to_owned();
         return Err(OverrideError::Case { reason });
     }
+    let seed = options.seed;
     let others = OtherPriors::of(case);
     let effort = Effort { stop, ..Effort::FULL };
-    let weighed = Weighed::new(case, &others, options.seed, effort, &|share| progress(0.6 * share));
-    let progress = |share: f64| progress(0.6 + 0.4 * share);
-    Ok(diagnosed_as(case, weighed, options, &progress, stop))
-}
-
-/// The diagnosis of a case whose hypotheses are weighed, and what predictions need.
-pub(crate) fn diagnosed_as(
-    case: &Case,
-    weighed: Weighed<'_>,
-    options: DiagnosisOptions,
-    progress: &(dyn Fn(f64) + Sync),
-    stop: Option<&AtomicBool>,
-) -> (Diagnosis, KnownGap) {
-    let seed = options.seed;
-    let effort = Effort { stop, ..Effort::FULL };
+    let weighed = Weighed::new(case, &others, seed, effort, &|share| progress(0.6 * share));
     let group = weighed.indistinguishable();
     let shares = weighed.shares();
     let verdict = weighed.most_probable(&group, &shares);
@@ -151,12 +138,12 @@ pub(crate) fn diagnosed_as(
     let with_rows = plus_rows(&setup, &variances);
     let regions =
         if effort.is_stopped() { Vec::new() } else { scan::regions(&setup, &with_rows, seed) };
-    progress(0.25);
+    progress(0.7);
     let probability = case.coverage_probability();
     let (mut shrinkage, rows) =
         shrink::shrinkage(&setup, &discrepancy, &posterior, &correction, &variances, seed, stop);
     shrinkage.shares = shares;
-    progress(0.6);
+    progress(0.85);
     let periodic = periodic_residuals::found(&rows, case.measured());
     // a wave that was composed says it already
     let is_composed = composed
@@ -174,7 +161,7 @@ pub(crate) fn diagnosed_as(
         next::next(&setup, &discrepancy, &posterior, &compositions, rivals, &variances, seed)
     };
     let interrupted = effort.is_stopped();
-    progress(0.9);
+    progress(0.95);
     let noise = noise(&setup, &variances, &winner, (&weighed_noise, probability), &rows);
     let strength = match verdict.kind {
         HypothesisKind::None => Vec::new(),
@@ -257,7 +244,7 @@ pub(crate) fn diagnosed_as(
         compositions,
         shared,
     };
-    (diagnosis, known)
+    Ok((diagnosis, known))
 }
 
 /// What is to be said of a sine in what the verdict leaves.

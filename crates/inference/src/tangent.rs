@@ -119,3 +119,28 @@ pub fn beside_departure(setup: &Setup<'_>, known: &[Vec<f64>], least: f64) -> Op
     let scores = inputs.iter().map(|(place, input, _)| (*input, mode.scores[*place])).collect();
     Some(LinearAt { values, scores })
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::tests::simulator::emulated;
+
+    /// Of a simulator that is its input a, which is 1.00 with a standard uncertainty of 0.05, and linear at 1.04:
+    /// there it touches, and at the estimate it is the same, as it is linear everywhere. The emulator is off by
+    /// less than 0.0005.
+    #[test]
+    fn a_tangent_touches_where_it_is_told() {
+        let at = LinearAt { values: vec![1.04], scores: vec![(0, 0.8)] };
+        let case = emulated(Some(at));
+        let setup = Setup::new(&case);
+        assert_eq!(case.linear_scores(&setup.roles), [0.8]);
+        for point in &setup.data.points {
+            assert!((point.nominal[0] - 1.0).abs() < 5e-4, "{point:?}");
+            assert!((point.tangent.touching[0] - 1.04).abs() < 5e-4, "{point:?}");
+            assert!((point.tangent.at_estimates[0] - 1.0).abs() < 5e-4, "{point:?}");
+        }
+        let (linear, nominal) = (setup.data.linear_residuals(), setup.data.nominal_residuals());
+        let mut both = linear[0].iter().zip(&nominal[0]);
+        assert!(both.all(|(linear, nominal)| (linear - nominal).abs() < 5e-4));
+    }
+}

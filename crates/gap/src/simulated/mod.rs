@@ -28,7 +28,7 @@ pub use self::elsewhere::{PREDICTION_RUNS, Predictions};
 use self::simulation::{Followed, Simulation};
 use self::simulator_runs::SimulatorRuns;
 use self::weighed_states::weighed_states;
-use crate::diagnose::{DiagnosisOptions, diagnosed_as};
+use crate::diagnose::{DiagnosisOptions, diagnosed};
 use crate::diagnosis::{Diagnosis, DiagnosisNote};
 use crate::known_gap::KnownGap;
 use crate::weighed::Weighed;
@@ -65,6 +65,10 @@ pub type MakeRuns<'m> = dyn FnMut(&[ParameterSet]) -> Vec<RunResult> + 'm;
 /// The share of the work that is done when the last run is made.
 const RUN: f64 = 0.8;
 
+/// How well hypotheses are weighed while runs are made: their draws say where the next ones go, and what is
+/// improbable is not looked at from end to end.
+const WHILE_RUN: Effort<'static> = Effort { generations: 0, ..Effort::QUICK };
+
 /// Diagnoses a case with a simulator, of which `make` makes at most `budget` runs less those among `kept` that
 /// the plan asks for. `progress` is told the share that is done. Once `stop` is set no run is asked for, and
 /// `make` may give back fewer than it was asked for: `None` where the last run was not made yet, else what is
@@ -94,39 +98,34 @@ pub fn diagnose(
     if simulation.follow(Vec::new(), make, &while_run)? == Followed::Stopped {
         return Ok(None);
     }
-    let effort = Effort { stop: Some(stop), ..Effort::FULL };
     simulation.move_linear()?;
+    let effort = Effort { stop: Some(stop), ..WHILE_RUN };
     loop {
         let emulated = simulation.emulated()?;
         let others = OtherPriors::of(&emulated);
-        let weighed = Weighed::new(&emulated, &others, options.seed, effort, &|_| {});
-        let states = weighed_states(&weighed.setup, &weighed.posterior, 0.0);
-        if simulation.follow(states, make, &while_run)? == Followed::ToBeWeighed {
-            continue;
+        let Weighed { setup, posterior, .. } =
+            Weighed::new(&emulated, &others, options.seed, effort, &|_| {});
+        let states = weighed_states(&setup, &posterior, 0.0);
+        if simulation.follow(states, make, &while_run)? != Followed::ToBeWeighed {
+            break;
         }
-        let progress = |share: f64| progress(RUN + (1.0 - RUN) * share);
-        let (mut diagnosis, known) =
-            diagnosed_as(&emulated, weighed, options, &progress, Some(stop));
-        without_simulated(&mut diagnosis, case.described());
-        let ending = simulation.plan.ending();
-        diagnosis.notes.extend(notes::open(case, &ending));
-        let own = &diagnosis.most_probable.effects;
-        let is_named = |of: &&Candidate| own.contains(&of.effect.name);
-        let named: Vec<usize> =
-            case.candidates.iter().filter(is_named).filter_map(|of| of.simulator).collect();
-        let unseen = simulation.emulator.unseen(&named).map(UnseenError::norm);
-        let facts =
-            std::iter::once(notes::runs(ending.runs, unseen)).chain(simulation.runs.failed_note());
-        diagnosis.notes.extend(facts.map(|fact| DiagnosisNote { fact }));
-        let SimulatorRuns { runs, last, .. } = simulation.runs;
-        return Ok(Some(SimulatorDiagnosis {
-            diagnosis,
-            runs,
-            last,
-            ending,
-            known: Arc::new(known),
-        }));
     }
+    let emulated = simulation.emulated()?;
+    let progress = |share: f64| progress(RUN + (1.0 - RUN) * share);
+    let (mut diagnosis, known) = diagnosed(&emulated, options, &progress, Some(stop))?;
+    without_simulated(&mut diagnosis, case.described());
+    let ending = simulation.plan.ending();
+    diagnosis.notes.extend(notes::open(case, &ending));
+    let own = &diagnosis.most_probable.effects;
+    let is_named = |of: &&Candidate| own.contains(&of.effect.name);
+    let named: Vec<usize> =
+        case.candidates.iter().filter(is_named).filter_map(|of| of.simulator).collect();
+    let unseen = simulation.emulator.unseen(&named).map(UnseenError::norm);
+    let facts =
+        std::iter::once(notes::runs(ending.runs, unseen)).chain(simulation.runs.failed_note());
+    diagnosis.notes.extend(facts.map(|fact| DiagnosisNote { fact }));
+    let SimulatorRuns { runs, last, .. } = simulation.runs;
+    Ok(Some(SimulatorDiagnosis { diagnosis, runs, last, ending, known: Arc::new(known) }))
 }
 
 /// Takes out the conditions that hold what the simulator gives.

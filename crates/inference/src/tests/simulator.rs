@@ -13,7 +13,7 @@ use super::cases::{candidate, case, normal, observed, quantity};
 use crate::latent::Role;
 use crate::predict;
 use crate::setup::Setup;
-use crate::tangent::{LinearAt, beside_departure};
+use crate::tangent::LinearAt;
 use crate::{Case, ModelForm, SimulatorModel, simulator_conditions};
 
 const ROWS: usize = 12;
@@ -60,7 +60,7 @@ fn measured() -> Case {
 }
 
 /// The case after enough runs: the emulator is known within hundredths of u.
-fn emulated(linear_at: Option<LinearAt>) -> Case {
+pub(crate) fn emulated(linear_at: Option<LinearAt>) -> Case {
     let case = measured();
     let space = case.simulator.as_ref().unwrap().space().clone();
     let units = case.simulator_units();
@@ -134,26 +134,4 @@ fn what_is_not_known_is_in_the_covariance() {
     }
     assert_eq!(basis(&[1]), basis(&[0, 1]));
     assert_eq!(basis(&[]).len(), emulator.unseen(&[]).unwrap().factor.sizes.len());
-}
-
-/// The plain simulator is a and the data fall, from 1.02 by 0.03 a row. What leads beside the heaviest departure
-/// is no estimate of a; the model is linear there, and as it is linear anywhere, its residuals are the same.
-#[test]
-fn a_simulator_is_linear_where_its_inputs_are_beside_a_departure() {
-    let case = emulated(None);
-    let moved = beside_departure(&Setup::new(&case), &[], 1e-3).unwrap();
-    let case = emulated(Some(moved.clone()));
-    let setup = Setup::new(&case);
-    // an emulator within a twentieth of u
-    let tolerance = 0.01 / 20.0;
-    for (row, point) in setup.data.points.iter().enumerate() {
-        assert!((point.nominal[0] - 1.0).abs() < tolerance);
-        assert!((point.tangent.touching[0] - 1.0).abs() > 10.0 * tolerance, "{moved:?}");
-        assert!((point.tangent.at_estimates[0] - 1.0).abs() < tolerance);
-        let difference =
-            setup.data.linear_residuals()[0][row] - setup.data.nominal_residuals()[0][row];
-        assert!(difference.abs() < tolerance);
-    }
-    // found again it stays
-    assert_eq!(beside_departure(&setup, &[], 0.1), None);
 }
