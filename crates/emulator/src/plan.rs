@@ -1,6 +1,6 @@
 //! Which runs of a simulator to make next.
 
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 
 use gumption_engine::distribution::StreamKey;
 use gumption_engine::number::{elementary, largest_first};
@@ -17,6 +17,19 @@ pub const GOAL: f64 = 0.5;
 
 /// The last runs, at what is reported.
 const VERDICT: usize = 4;
+
+/// The share of the budget that is kept for draws of what is to be reported: one tenth.
+const KEPT: usize = 10;
+
+/// Hypotheses are weighed again after runs at draws of what was to be reported, so often at most.
+const CHECKS: usize = 3;
+
+/// Hypotheses of at least this probability are run at draws of what is to be reported.
+const PROBABLE: f64 = 0.01;
+
+/// An error that moves a probability by less than this does not count. One of e u in norm moves the logarithm
+/// of an evidence by about e, and a probability p by p (1 - p) e.
+const MOVED: f64 = 0.03;
 
 /// The share of the budget that fills the space before anything is inferred: one third.
 const START: usize = 3;
@@ -54,7 +67,13 @@ const ROUNDS: usize = 20;
 /// effects that hide each other are each worse than nothing alone. The six best are run at their own best
 /// points, as superposition is wrong where effects are large. The runs of a round go to the modes and
 /// to draws of the posteriors of the leading hypotheses whose errors are not below 0.5 u in norm over all
-/// rows. The last runs are those at what is reported.
+/// rows.
+///
+/// Then all hypotheses are weighed as they are to be reported, [`Step::Weigh`], and those above a probability
+/// of 0.01 are run at draws of these posteriors, which other noises and departures beside the effects may have
+/// moved. Where the emulator was off by more than 0.5 u, and by so much that it moves a probability by 0.03,
+/// they are weighed again, three times at most. A tenth of the budget is kept for this. The last runs are those
+/// at what is reported.
 ///
 /// The plan follows from its seed and from what it is told: somebody who made its runs before makes none
 /// again.
@@ -69,6 +88,12 @@ pub struct Plan {
     stage: Stage,
     found: BTreeMap<Vec<usize>, State>,
     errors: BTreeMap<Vec<usize>, Errors>,
+    /// What is to be reported, the most probable first.
+    weighed: Vec<State>,
+    /// How often it was run at.
+    checks: usize,
+    /// What is known well enough at draws of what was to be reported.
+    checked: BTreeSet<Vec<usize>>,
 }
 
 /// Which hypotheses there are.
@@ -91,11 +116,15 @@ enum Stage {
     Ask(Vec<Vec<usize>>),
     /// States were asked for.
     Decide,
+    /// What is to be reported was asked for.
+    Check,
+    /// Runs at it were handed out.
+    Checked,
     /// The last runs were handed out.
     Verdict,
 }
 
-/// The errors of a hypothesis at its posterior, the median of the last round and of the one before.
+/// The errors of a hypothesis at its posterior, the root mean square of the last round and of the one before.
 #[derive(Clone, Copy, Debug)]
 struct Errors {
     last: f64,
@@ -113,7 +142,11 @@ impl Plan {
         if budget < least {
             return Err(TooFewRuns { least });
         }
-        Ok(Self {
+        Ok(Self::begun(space, budget, seed))
+    }
+
+    fn begun(space: Space, budget: usize, seed: u64) -> Self {
+        Self {
             space,
             budget,
             seed,
@@ -123,7 +156,10 @@ impl Plan {
             stage: Stage::Start,
             found: BTreeMap::new(),
             errors: BTreeMap::new(),
-        })
+            weighed: Vec::new(),
+            checks: 0,
+            checked: BTreeSet::new(),
+        }
     }
 
     /// At most so many runs that fill the space as the start of a plan does, for a simulator that is run
@@ -139,38 +175,28 @@ impl Plan {
         Ok(filled(space, runs, seed))
     }
 
-    /// What runs that were made elsewhere leave open, from the states of hypotheses and the errors of the
-    /// emulator, the norm over all rows in u, where they are known; and the runs of the next round.
+    /// What runs that were made elsewhere leave open, from the states of all hypotheses, as after
+    /// [`Step::Weigh`], and the errors of the emulator, the norm over all rows in u, where they are known; and
+    /// the runs of the next round.
     pub fn of_made(
         space: &Space,
         runs: usize,
         found: Vec<(State, Option<f64>)>,
         seed: u64,
     ) -> (Ending, Vec<Batch>) {
-        let (used, turn) = (runs, 0);
-        let (phase, stage) = (Phase::All, Stage::Decide);
-        let mut plan = Self {
-            space: space.clone(),
-            budget: runs,
-            seed,
-            used,
-            turn,
-            phase,
-            stage,
-            found: BTreeMap::new(),
-            errors: BTreeMap::new(),
-        };
+        let (used, budget) = (runs, runs);
+        let mut plan = Self { used, ..Self::begun(space.clone(), budget, seed) };
         for (state, error) in found {
             if let Some(last) = error {
                 plan.errors.insert(state.effects.clone(), Errors { last, before: None });
             }
-            plan.found.insert(state.effects.clone(), state);
+            plan.weighed.push(state);
         }
+        plan.sort_weighed();
+        plan.note_checked();
         let ending = plan.ending();
-        let next = ending.open.iter().filter_map(|open| {
-            let state = plan.found.get(&open.effects)?;
-            Some(plan.batch(state, runs_in_round(&open.effects)))
-        });
+        let open = plan.unchecked().into_iter();
+        let next = open.map(|state| plan.batch(state, runs_in_round(&state.effects)));
         let next = next.collect();
         (ending, next)
     }
@@ -185,17 +211,15 @@ impl Plan {
     pub fn learnt(&mut self, batch: &Batch, unseen: Option<&UnseenError>) {
         if let (Some(_), Some(unseen)) = (&batch.focus, unseen) {
             let before = self.errors.get(&batch.effects).map(|errors| errors.last);
-            let errors = Errors { last: unseen.median(), before };
+            let errors = Errors { last: unseen.norm(), before };
             self.errors.insert(batch.effects.clone(), errors);
         }
     }
 
     /// The next step. After [`Step::Infer`] the states of the hypotheses that were asked for are given; one
-    /// that is missing stays as it was.
+    /// that is missing stays as it was. After [`Step::Weigh`] those of all that are probable are, each with
+    /// the logarithm of its probability as its score.
     pub fn next(&mut self, states: Vec<State>) -> Step {
-        for state in states {
-            self.found.insert(state.effects.clone(), state);
-        }
         match std::mem::replace(&mut self.stage, Stage::Verdict) {
             Stage::Start => {
                 self.stage = Stage::Ask(self.few());
@@ -205,16 +229,75 @@ impl Plan {
                 self.stage = Stage::Decide;
                 Step::Infer(asked)
             }
-            Stage::Decide => self.decide(),
+            Stage::Decide => {
+                let states = states.into_iter().map(|state| (state.effects.clone(), state));
+                self.found.extend(states);
+                self.decide()
+            }
+            Stage::Check => {
+                self.weighed = states;
+                self.sort_weighed();
+                self.check()
+            }
+            Stage::Checked => {
+                self.note_checked();
+                if self.unchecked().is_empty() { Step::Done(self.ending()) } else { self.weigh() }
+            }
             Stage::Verdict => {
-                let is_known = self.leading().first().is_none_or(|best| self.is_known(best));
-                if is_known || self.left() == 0 || self.turn >= ROUNDS {
-                    return Step::Done(self.ending());
-                }
-                self.stage = Stage::Decide;
-                Step::Infer(self.leading())
+                self.note_checked();
+                Step::Done(self.ending())
             }
         }
+    }
+
+    fn weigh(&mut self) -> Step {
+        self.stage = Stage::Check;
+        Step::Weigh
+    }
+
+    /// Runs at draws of what is to be reported, where the emulator is not known to be right.
+    fn check(&mut self) -> Step {
+        self.checks += 1;
+        let mut left = self.left();
+        let mut batches = Vec::new();
+        if self.checks <= CHECKS {
+            for state in self.unchecked() {
+                let count = runs_in_round(&state.effects).min(left);
+                if count > 0 {
+                    batches.push(self.batch(state, count));
+                    left -= count;
+                }
+            }
+        }
+        if batches.is_empty() {
+            let count = VERDICT.min(self.budget - self.used);
+            batches.extend(self.weighed.first().map(|best| self.batch(best, count)));
+        } else {
+            self.stage = Stage::Checked;
+        }
+        self.run(batches)
+    }
+
+    /// What is to be reported and not known well enough there.
+    fn unchecked(&self) -> Vec<&State> {
+        self.weighed.iter().filter(|state| !self.checked.contains(&state.effects)).collect()
+    }
+
+    /// What is probable enough to be run at, the most probable first.
+    fn sort_weighed(&mut self) {
+        self.weighed.retain(|state| state.score >= elementary::ln(PROBABLE));
+        largest_first(&mut self.weighed, |state| state.score);
+    }
+
+    fn note_checked(&mut self) {
+        let known = self.weighed.iter().filter(|state| {
+            let probability = elementary::exp(state.score);
+            let error = self.errors.get(&state.effects).map(|errors| errors.last);
+            let moved = error.map(|error| probability * (1.0 - probability) * error);
+            self.is_known(&state.effects) || moved.is_some_and(|moved| moved < MOVED)
+        });
+        let known: Vec<Vec<usize>> = known.map(|state| state.effects.clone()).collect();
+        self.checked.extend(known);
     }
 
     /// What follows from the states that were given.
@@ -239,10 +322,8 @@ impl Plan {
             _ => Vec::new(),
         };
         let is_finished = self.phase == Phase::All && open.is_empty();
-        if self.left() == 0 || turn >= ROUNDS || is_finished {
-            let best = leading.first().and_then(|best| self.found.get(best));
-            let last = best.map(|best| self.batch(best, VERDICT.min(self.budget - self.used)));
-            return self.run(last.into_iter().collect());
+        if self.left_in_rounds() == 0 || turn >= ROUNDS || is_finished {
+            return self.weigh();
         }
         if self.phase == Phase::First {
             open.clear();
@@ -252,7 +333,7 @@ impl Plan {
         let counts = new.iter().map(|of| (of, FIRST));
         let counts = counts.chain(open.iter().map(|of| (of, runs_in_round(of))));
         let mut batches = Vec::new();
-        let mut left = self.left();
+        let mut left = self.left_in_rounds();
         for (of, count) in counts {
             let count = count.min(left);
             if let Some(state) = self.found.get(of).filter(|_| count > 0) {
@@ -284,6 +365,13 @@ impl Plan {
     /// Runs that are left but for the last ones.
     fn left(&self) -> usize {
         self.budget.saturating_sub(self.used + VERDICT)
+    }
+
+    /// Those of them that are not kept for what is to be reported. Every effect is run at its own best point
+    /// before any are.
+    fn left_in_rounds(&self) -> usize {
+        let kept = if self.phase == Phase::First { 0 } else { self.budget / KEPT };
+        self.left().saturating_sub(kept)
     }
 
     /// No effect and every one alone.
@@ -325,8 +413,10 @@ impl Plan {
         state.batch(&self.space, count, key, self.used as u64)
     }
 
-    fn ending(&self) -> Ending {
-        let open = self.leading().into_iter().filter(|of| !self.is_known(of)).map(|effects| {
+    /// How it ends if no run is made any more.
+    pub fn ending(&self) -> Ending {
+        let open = self.unchecked().into_iter().map(|state| {
+            let effects = state.effects.clone();
             let errors = self.errors.get(&effects);
             let rounds = errors.map_or(1.0, |errors| {
                 let falls = errors.before.map_or(0.5, |before| errors.last / before);

@@ -4,7 +4,7 @@ use gumption_engine::linalg::dot;
 
 use crate::conditioned::{Conditioned, Nugget, Target};
 use crate::lengths::{ScatteredLengths, ValueScatter};
-use crate::matern::correlation;
+use crate::matern::{correlation, correlations};
 use crate::trend::Trend;
 
 /// Functions of several variables that vary at the same lengths, each known at the same points: Gaussian
@@ -69,8 +69,7 @@ impl GaussianProcess {
     /// The expected value of each function at a point.
     pub fn values(&self, point: &[f64]) -> Vec<f64> {
         let Conditioned { points, inverse_squares, .. } = &self.conditioned;
-        let correlations: Vec<f64> =
-            points.iter().map(|known| correlation(point, known, inverse_squares).value).collect();
+        let correlations = correlations(point, points, inverse_squares);
         self.targets.iter().map(|target| target.value(point, &correlations)).collect()
     }
 
@@ -78,9 +77,8 @@ impl GaussianProcess {
     /// that it was learnt from.
     pub(crate) fn scattered_deviations(&self, point: &[f64]) -> Vec<f64> {
         let Conditioned { points, inverse_squares, .. } = &self.conditioned;
-        let correlations =
-            points.iter().map(|known| correlation(point, known, inverse_squares).value);
-        let variance = self.conditioned.scattered(correlations.collect(), point);
+        let correlations = correlations(point, points, inverse_squares);
+        let variance = self.conditioned.scattered(correlations, point);
         vec![variance.sqrt(); self.targets.len()]
     }
 

@@ -12,6 +12,8 @@ pub enum Step {
     Run(Vec<Batch>),
     /// Infer the posteriors of these hypotheses.
     Infer(Vec<Vec<usize>>),
+    /// Weigh all hypotheses as they are to be reported.
+    Weigh,
     /// There is nothing more to do.
     Done(Ending),
 }
@@ -41,7 +43,7 @@ pub struct Ending {
 pub struct Open {
     /// Its effects.
     pub effects: Vec<usize>,
-    /// The error at its posterior: the median norm over all rows on runs that were not seen, in u. `None`
+    /// The error at its posterior: the root mean square of the norm over all rows on runs that were not seen, in u. `None`
     /// where it was never run there.
     pub error: Option<f64>,
     /// About how many more runs it takes, if the error goes on to fall as it did, or by half a round.

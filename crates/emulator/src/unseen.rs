@@ -3,7 +3,6 @@
 use crate::scatter::Scatter;
 use crate::singular::SingularVectors;
 use gumption_engine::linalg::{add_multiple, dot};
-use gumption_engine::number::median;
 
 /// Directions of errors are kept until what is left has this norm over all rows, in u.
 const LEFT: f64 = 1e-3;
@@ -27,9 +26,9 @@ impl UnseenError {
 
     /// Of a simulator whose runs scatter, for what is not known of its mean: of the errors of all rows of some
     /// runs, at least one, along directions in which the mean may be wrong. From each norm is taken what the
-    /// scatter has there. The covariance is what the scatter leaves in the mean at the runs, columns of factors `scattered` of all of
-    /// them, and
-    /// what of the errors is beyond what the scatter alone shows along any direction.
+    /// scatter has there. The covariance is what the scatter leaves in the mean at the runs, columns of factors
+    /// `scattered` of all of them, and what of the errors is beyond what the scatter alone shows along any
+    /// direction.
     pub(crate) fn of_mean(
         errors: &[Vec<f64>],
         directions: &SingularVectors,
@@ -64,9 +63,9 @@ impl UnseenError {
         Self { norms, factor: SingularVectors::of(&columns, LEFT) }
     }
 
-    /// The median of the norms, of an even number of them the upper one of the two.
-    pub fn median(&self) -> f64 {
-        median(self.norms.clone()).unwrap_or(0.0)
+    /// The root mean square of the norms: what the covariance that the error leaves has in all rows together.
+    pub fn norm(&self) -> f64 {
+        (dot(&self.norms, &self.norms) / self.norms.len().max(1) as f64).sqrt()
     }
 }
 
@@ -82,7 +81,7 @@ mod tests {
     #[test]
     fn the_factor_is_that_of_the_mean_square() {
         let unseen = UnseenError::of(&[vec![3.0, 0.0, 0.0], vec![0.0, 0.0, -4.0]]);
-        assert_eq!((&unseen.norms[..], unseen.median()), (&[3.0, 4.0][..], 4.0));
+        assert_eq!((&unseen.norms[..], unseen.norm()), (&[3.0, 4.0][..], 12.5_f64.sqrt()));
         let squares: Vec<f64> = unseen.factor.sizes.iter().map(|size| size * size).collect();
         assert!((squares[0] - 8.0).abs() < 1e-14 && (squares[1] - 4.5).abs() < 1e-14);
         assert_eq!(unseen.factor.vectors[0][2].abs(), 1.0);

@@ -21,7 +21,7 @@ pub(crate) fn gap(setup: &Setup<'_>, kind: HypothesisKind) -> GapTest {
     if setup.linear.fitted {
         return lack_of_fit(setup, present);
     }
-    let residuals = by_rows(&setup.data.nominal_residuals());
+    let residuals = by_rows(&setup.data.linear_residuals());
     let whitened = setup.linear.whiten_blocks(&residuals);
     let chi2 = setup.linear.square(&whitened).max(0.0);
     let p_value = elementary::exp(special::gamma::ln_sf(0.5 * chi2, 0.5 * values));

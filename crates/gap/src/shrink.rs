@@ -235,7 +235,7 @@ pub(crate) fn input_variances(setup: &Setup<'_>) -> Vec<f64> {
         .map(|value| {
             let (row, output) = (value / outputs, value % outputs);
             let point = data.point_of[row];
-            let gradients = &data.points[point].gradients[output];
+            let gradients = &data.points[point].tangent.gradients[output];
             (0..gradients.len())
                 .map(|v| (gradients[v] * setup.spread.deviations[v][point]).powi(2))
                 .sum()
@@ -418,7 +418,7 @@ fn fold(
             let found = match beside {
                 Some(beside) => beside.departure,
                 None => {
-                    let residuals = by_rows(&part.data.nominal_residuals());
+                    let residuals = by_rows(&part.data.linear_residuals());
                     discrepancy.evidence(&part, &residuals, f64::NEG_INFINITY)
                 }
             };

@@ -71,7 +71,8 @@ impl Covariance {
         for (place, &variable) in linear.iter().enumerate() {
             let own = |variable: usize, row: usize, output: usize| {
                 let point = data.point_of[row];
-                data.points[point].gradients[output][variable] * spread.deviations[variable][point]
+                data.points[point].tangent.gradients[output][variable]
+                    * spread.deviations[variable][point]
             };
             // of correlated variables, which are shared alike, what is independent of those before
             let effect = |row: usize, output: usize| match &root {

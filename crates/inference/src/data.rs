@@ -5,6 +5,7 @@ use std::collections::HashMap;
 use crate::Case;
 use crate::noise::copies::Copies;
 use crate::noise::noise_model::{NoiseModel, lag};
+use crate::tangent::Tangent;
 use gumption_engine::distribution::Distribution;
 use gumption_engine::number::elementary;
 use gumption_engine::task::Sharing;
@@ -44,8 +45,8 @@ pub struct Point {
     pub rows: Vec<usize>,
     /// For each observed output what the model says at the inputs' estimates.
     pub nominal: Vec<f64>,
-    /// For each observed output its partial derivatives with respect to the variables.
-    pub gradients: Vec<Vec<f64>>,
+    /// The same as linear functions of the inputs.
+    pub tangent: Tangent,
 }
 
 impl Data {
@@ -73,14 +74,16 @@ impl Data {
             // neighbours are told apart by their order, so that repeats are not taken together
             key.extend(noise.serial.map(|_| number as u64));
             let place = *known.entry(key).or_insert_with(|| {
+                let mut tangent = case.tangent(row).of_outputs(&outputs);
                 let inputs = row.distributions.len();
-                let (values, gradients) = case.gradients(&row.estimates());
-                let gradient = |&output: &usize| gradients[output][..inputs].to_vec();
-                points.push(Point {
-                    rows: Vec::new(),
-                    nominal: outputs.iter().map(|&output| values[output]).collect(),
-                    gradients: outputs.iter().map(gradient).collect(),
-                });
+                tangent.gradients.iter_mut().for_each(|gradient| gradient.truncate(inputs));
+                let nominal = if case.is_linear_at_estimates() {
+                    tangent.touching.clone()
+                } else {
+                    let values = case.evaluate(&row.estimates());
+                    outputs.iter().map(|&output| values[output]).collect()
+                };
+                points.push(Point { rows: Vec::new(), nominal, tangent });
                 points.len() - 1
             });
             points[place].rows.push(number);
@@ -172,13 +175,22 @@ impl Data {
 
     /// The residuals against the model at the inputs' estimates, output by output.
     pub fn nominal_residuals(&self) -> Vec<Vec<f64>> {
+        self.residuals(|point| &point.nominal)
+    }
+
+    /// The same against the model as a linear function of the inputs.
+    pub fn linear_residuals(&self) -> Vec<Vec<f64>> {
+        self.residuals(|point| &point.tangent.at_estimates)
+    }
+
+    fn residuals(&self, sims: impl Fn(&Point) -> &[f64]) -> Vec<Vec<f64>> {
         (0..self.outputs.len())
             .map(|output| {
                 self.point_of
                     .iter()
                     .enumerate()
                     .map(|(row, &point)| {
-                        self.residual(output, row, self.points[point].nominal[output])
+                        self.residual(output, row, sims(&self.points[point])[output])
                     })
                     .collect()
             })

@@ -37,6 +37,7 @@ pub mod shape;
 mod simulated_outputs;
 mod simulator;
 pub mod simulator_states;
+pub mod tangent;
 pub mod term_evidence;
 mod whitened;
 

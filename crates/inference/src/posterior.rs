@@ -174,7 +174,7 @@ pub(crate) fn posterior(
     let exploration = Exploration::new(setup, seed, effort);
     let Beginnings { singles: mut hypotheses, pairs, before } = beginnings;
     progress(0.2);
-    let residuals = by_rows(&setup.data.nominal_residuals());
+    let residuals = by_rows(&setup.data.linear_residuals());
     let unexplained_prior = prior_alone(setup.case, &prior);
     let floor =
         leading(&hypotheses, rivals) - elementary::ln(unexplained_prior.max(f64::MIN_POSITIVE));

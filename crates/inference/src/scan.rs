@@ -80,7 +80,7 @@ struct Axis {
 
 /// Names the regions that depart. `variances` are those of the values without shared inputs.
 pub fn regions(setup: &Setup<'_>, variances: &[f64], seed: u64) -> Vec<GapRegion> {
-    let residuals = crate::data::by_rows(&setup.data.nominal_residuals());
+    let residuals = crate::data::by_rows(&setup.data.linear_residuals());
     let white: Vec<f64> = residuals.iter().zip(variances).map(|(r, v)| r / v.sqrt()).collect();
     let design = Design::new(setup, variances);
     let of_block = |block| -> Vec<f64> {

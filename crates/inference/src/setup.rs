@@ -302,7 +302,8 @@ fn unknown_inputs(case: &Case, data: &Data, spread: &Spread) -> Vec<usize> {
         let mut sum = 0.0;
         for (row, &point) in data.point_of.iter().enumerate() {
             for output in 0..data.outputs.len() {
-                let linear = data.points[point].gradients[output][v] * spread.deviations[v][point];
+                let linear =
+                    data.points[point].tangent.gradients[output][v] * spread.deviations[v][point];
                 let effect = linear.abs().max(curved[point][output]);
                 let u = match &data.uncertainties[output] {
                     Some(u) => u[row],

@@ -10,14 +10,20 @@ use gumption_engine::task::Row;
 
 use crate::latent::Role;
 use crate::simulator::{Elsewhere, Learnt, SimulatorModel};
+use crate::tangent::LinearAt;
 use crate::{Candidate, Case};
 
 impl Case {
     /// The same after runs of its simulator: `emulator` says what the outputs of all rows are, output after
-    /// output, counted in `units` as [`Case::simulator_units`] has them. What a scatter of the runs leaves in every
-    /// row counts as an uncertainty of the simulation. `None` in a case without a simulator
-    /// or with another number of values.
-    pub fn emulated(&self, emulator: Emulator, units: Vec<f64>) -> Option<Self> {
+    /// output, counted in `units` as [`Case::simulator_units`] has them; beside departures they are linear at
+    /// `linear_at`, or at the estimates. What a scatter of the runs leaves in every row counts as an uncertainty
+    /// of the simulation. `None` in a case without a simulator or with another number of values.
+    pub fn emulated(
+        &self,
+        emulator: Emulator,
+        units: Vec<f64>,
+        linear_at: Option<LinearAt>,
+    ) -> Option<Self> {
         let simulator = self.simulator.as_ref()?;
         let rows = self.task.rows.len();
         let values = (self.simulated - 1) * rows;
@@ -27,7 +33,7 @@ impl Case {
         let mut case = self.clone();
         let left = emulator.left_by_scatter();
         let left = left.map(|left| left.iter().zip(&units).map(|(u, unit)| u * unit).collect());
-        let simulator = Arc::new(simulator.with(emulator, units));
+        let simulator = Arc::new(simulator.with(emulator, units, linear_at));
         case.simulator = Some(Arc::clone(&simulator));
         let first = self.described();
         for (number, row) in case.task.rows.iter_mut().enumerate() {

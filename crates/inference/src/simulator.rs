@@ -12,6 +12,8 @@ use gumption_emulator::{Coordinate, Emulator, PosteriorEmulator, Prediction, Spa
 use gumption_engine::model::Quantity;
 use gumption_units::Unit;
 
+use crate::tangent::LinearAt;
+
 /// A simulator in the place of a model's formulas.
 #[derive(Debug)]
 pub struct SimulatorModel {
@@ -19,6 +21,8 @@ pub struct SimulatorModel {
     noisy: bool,
     pub(crate) learnt: Option<Arc<Learnt>>,
     pub(crate) elsewhere: Option<Elsewhere>,
+    /// The inputs at which it is linear, beside departures; the estimates where there are none.
+    pub(crate) linear_at: Option<LinearAt>,
     /// What the emulators say of the plain simulator at the inputs that were asked for last.
     plain: Mutex<VecDeque<(Vec<u64>, Arc<Prediction>)>>,
 }
@@ -57,7 +61,14 @@ impl SimulatorModel {
     /// One that was never run. `space` are its parameters: all inputs of the model in their order, then those
     /// of the candidates that it can do by itself.
     pub fn new(space: Space) -> Self {
-        Self { space, noisy: false, learnt: None, elsewhere: None, plain: Mutex::default() }
+        Self {
+            space,
+            noisy: false,
+            learnt: None,
+            elsewhere: None,
+            linear_at: None,
+            plain: Mutex::default(),
+        }
     }
 
     /// The same, of which is said whether its outputs scatter from run to run at the same parameters.
@@ -77,15 +88,21 @@ impl SimulatorModel {
     }
 
     /// The same after runs.
-    pub(crate) fn with(&self, emulator: Emulator, units: Vec<f64>) -> Self {
+    pub(crate) fn with(
+        &self,
+        emulator: Emulator,
+        units: Vec<f64>,
+        linear_at: Option<LinearAt>,
+    ) -> Self {
         let learnt = Some(Arc::new(Learnt { emulator, units }));
-        Self { learnt, ..self.without_runs() }
+        Self { learnt, linear_at, ..self.without_runs() }
     }
 
     /// The same after runs in other rows as well.
     pub(crate) fn with_elsewhere(&self, emulator: PosteriorEmulator, units: Vec<f64>) -> Self {
         let elsewhere = Some(Elsewhere { emulator, units });
-        Self { learnt: self.learnt.clone(), elsewhere, ..self.without_runs() }
+        let linear_at = self.linear_at.clone();
+        Self { learnt: self.learnt.clone(), elsewhere, linear_at, ..self.without_runs() }
     }
 
     /// What it is run with.

@@ -36,10 +36,10 @@ pub fn explored(
     parallel::map(hypotheses, begin).into_iter().flatten().collect()
 }
 
-/// The state of the effects of the simulator that all of these hypotheses have; `None` without one that has a
-/// mode.
-pub fn state(setup: &Setup<'_>, hypotheses: &[&WeighedHypothesis]) -> Option<State> {
-    let best = hypotheses.iter().max_by(|a, b| a.ln_weight().total_cmp(&b.ln_weight()))?;
+/// The state of the effects of the simulator that all of these hypotheses have, each with the logarithm of
+/// what it counts beside the others; `None` without one that has a mode.
+pub fn state(setup: &Setup<'_>, hypotheses: &[(f64, &WeighedHypothesis)]) -> Option<State> {
+    let (_, best) = hypotheses.iter().max_by(|(a, _), (b, _)| a.total_cmp(b))?;
     let mut state = State {
         effects: setup.case.simulator_effects(&best.effects),
         score: f64::NEG_INFINITY,
@@ -47,11 +47,11 @@ pub fn state(setup: &Setup<'_>, hypotheses: &[&WeighedHypothesis]) -> Option<Sta
         draws: Vec::new(),
         weights: Vec::new(),
     };
-    for of in hypotheses {
-        state.score = ln_add(state.score, of.ln_weight());
+    for (ln_weight, _) in hypotheses {
+        state.score = ln_add(state.score, *ln_weight);
     }
-    for of in hypotheses {
-        let share = elementary::exp(of.ln_weight() - state.score);
+    for (ln_weight, of) in hypotheses {
+        let share = elementary::exp(ln_weight - state.score);
         let count = (DRAWS as f64 * share).round() as usize;
         let likelihood = setup.likelihood(&of.effects);
         let simulated = likelihood.simulated.as_ref()?;

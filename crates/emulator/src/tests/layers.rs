@@ -142,8 +142,8 @@ fn an_interaction_is_learnt_where_the_posterior_is() {
     for draws in draws.chunks(8) {
         let runs: Vec<SimulatorRun> = draws.iter().map(|z| run(&space, &both, z)).collect();
         let learnt = emulator.learn(&both, &runs, Some(focus.clone()));
-        errors.push(learnt.unseen.unwrap().median());
-        assert_eq!(emulator.unseen(&both).unwrap().median(), errors[errors.len() - 1]);
+        errors.push(learnt.unseen.unwrap().norm());
+        assert_eq!(emulator.unseen(&both).unwrap().norm(), errors[errors.len() - 1]);
     }
     assert!(emulator.correction(&both).unwrap().near().is_some());
     // the offset's decay, of half a unit in each of 40 rows; then a twentieth of it and less

@@ -204,6 +204,43 @@ struct Diagnosis {
     converged: bool,
 }
 
+/// The states of hypotheses, each looked for from where it was before and from those of its members.
+fn inferred(
+    emulator: &Emulator,
+    data: &[f64],
+    hypotheses: Vec<Vec<usize>>,
+    states: &mut Vec<State>,
+) -> Vec<State> {
+    let space = emulator.space();
+    let mut given = Vec::new();
+    for effects in hypotheses {
+        let before = states.iter().position(|state| state.effects == effects);
+        let before = before.map(|place| states.remove(place).mode);
+        let unknowns = space.unknowns(&effects).len();
+        // of single effects what the inputs are beside them, and what they are
+        let members = states.iter().filter(|state| {
+            !state.effects.is_empty()
+                && state.effects.len() < effects.len()
+                && effects.contains(&state.effects[0])
+        });
+        let members = members.map(|state| {
+            let mut start = vec![0.0; unknowns];
+            start[..2].copy_from_slice(&state.mode[..2]);
+            start[2 + effects.iter().position(|e| *e == state.effects[0]).unwrap()] = state.mode[2];
+            start
+        });
+        let mut starts: Vec<Vec<f64>> = members.chain(before).collect();
+        starts.push(vec![0.0; unknowns]);
+        let state = infer(emulator, data, &effects, &starts);
+        given.push(match emulator.scatter() {
+            Some(scatter) => state.clone().widened(scatter),
+            None => state.clone(),
+        });
+        states.push(state);
+    }
+    given
+}
+
 /// A diagnosis with runs that were made before and those that it makes.
 fn diagnose(data: &[f64], budget: usize, runs: Runs) -> Diagnosis {
     diagnose_noisy(data, budget, runs, 0.0)
@@ -250,33 +287,13 @@ fn diagnose_noisy(data: &[f64], budget: usize, mut runs: Runs, scatter: f64) -> 
                     plan.learnt(&batch, learnt.unseen.as_ref());
                 }
             }
-            Step::Infer(hypotheses) => {
-                for effects in hypotheses {
-                    let before = states.iter().position(|state| state.effects == effects);
-                    let before = before.map(|place| states.remove(place).mode);
-                    let unknowns = space.unknowns(&effects).len();
-                    // of single effects what the inputs are beside them, and what they are
-                    let members = states.iter().filter(|state| {
-                        !state.effects.is_empty()
-                            && state.effects.len() < effects.len()
-                            && effects.contains(&state.effects[0])
-                    });
-                    let members = members.map(|state| {
-                        let mut start = vec![0.0; unknowns];
-                        start[..2].copy_from_slice(&state.mode[..2]);
-                        start[2 + effects.iter().position(|e| *e == state.effects[0]).unwrap()] =
-                            state.mode[2];
-                        start
-                    });
-                    let mut starts: Vec<Vec<f64>> = members.chain(before).collect();
-                    starts.push(vec![0.0; unknowns]);
-                    let state = infer(&emulator, data, &effects, &starts);
-                    given.push(match emulator.scatter() {
-                        Some(scatter) => state.clone().widened(scatter),
-                        None => state.clone(),
-                    });
-                    states.push(state);
-                }
+            Step::Infer(hypotheses) => given = inferred(&emulator, data, hypotheses, &mut states),
+            Step::Weigh => {
+                let all = states.iter().map(|state| state.effects.clone()).collect();
+                given = inferred(&emulator, data, all, &mut states);
+                let best = given.iter().map(|state| state.score).fold(f64::NEG_INFINITY, f64::max);
+                let sum: f64 = given.iter().map(|state| (state.score - best).exp()).sum();
+                given.iter_mut().for_each(|state| state.score -= best + sum.ln());
             }
             Step::Done(ending) => {
                 assert_eq!(ending.runs, plan.used());

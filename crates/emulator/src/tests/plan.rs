@@ -38,6 +38,16 @@ fn follow(
 ) -> Followed {
     let mut plan = Plan::new(space.clone(), budget, 1).unwrap();
     let (mut batches, mut asked, mut states) = (Vec::<Batch>::new(), Vec::new(), Vec::new());
+    let state = |effects: &Vec<usize>, score: f64| {
+        let mode = vec![0.25; 1 + effects.len()];
+        let draws = (0..10).map(|n| vec![0.1 * f64::from(n); mode.len()]).collect();
+        State { effects: effects.clone(), score, mode, draws, weights: vec![0.1; 10] }
+    };
+    let ends = 0..space.effects();
+    let pairs = ends.clone().flat_map(|a| (0..a).map(move |b| vec![b, a]));
+    let all: Vec<Vec<usize>> =
+        std::iter::once(vec![]).chain(ends.clone().map(|a| vec![a])).chain(pairs).collect();
+    let sum: f64 = all.iter().map(|effects| score(effects).exp()).sum();
     loop {
         match plan.next(std::mem::take(&mut states)) {
             Step::Run(more) => {
@@ -62,16 +72,12 @@ fn follow(
                 assert!(made <= budget, "{made} runs");
             }
             Step::Infer(hypotheses) => {
-                states = hypotheses
-                    .iter()
-                    .map(|effects| {
-                        let mode = vec![0.25; 1 + effects.len()];
-                        let draws = (0..10).map(|n| vec![0.1 * f64::from(n); mode.len()]).collect();
-                        let (effects, score) = (effects.clone(), score(effects));
-                        State { effects, score, mode, draws, weights: vec![0.1; 10] }
-                    })
-                    .collect();
+                states = hypotheses.iter().map(|effects| state(effects, score(effects))).collect();
                 asked.push(hypotheses);
+            }
+            Step::Weigh => {
+                let weighed = |effects| state(effects, score(effects) - sum.ln());
+                states = all.iter().map(weighed).collect();
             }
             Step::Done(ending) => return Followed { batches, asked, ending },
         }
@@ -84,8 +90,8 @@ fn hypotheses(of: &[Batch]) -> Vec<Vec<usize>> {
 
 /// A third of 150 runs is the start: 8 of the plain simulator, 14 of each effect, two thirds of them first.
 /// Then each single effect is run at its mode although it is far from the best, all pairs are asked for and run
-/// at their modes as well, and the ones near the best are run until they are known. The last four runs are at
-/// what is reported.
+/// at their modes as well, and the ones near the best are run until they are known. The last runs are at draws
+/// of what is reported, the pair with a probability of 0.993.
 #[test]
 fn a_plan_that_converges() {
     let pair = [0, 2];
@@ -112,15 +118,15 @@ fn a_plan_that_converges() {
         let own = batches.iter().filter(|batch| batch.effects == effects);
         own.map(|batch| batch.scores.len()).collect()
     };
-    assert_eq!(sizes(&pair), [8, 8, 4], "two rounds and the last runs");
+    assert_eq!(sizes(&pair), [8, 8, 8], "two rounds and the last runs");
     assert_eq!((sizes(&[0, 1]), sizes(&[1, 2])), (vec![2], vec![2]));
     assert_eq!(batches[batches.len() - 1].effects, pair);
     assert_eq!(ending.open, []);
     assert_eq!(ending.runs, batches.iter().map(|batch| batch.scores.len()).sum::<usize>());
 }
 
-/// An error that never falls: pairs are let in all the same, the budget is used up to the last run, and what
-/// is open is said.
+/// An error that never falls: pairs are let in all the same, the budget is used up to the last run, a tenth of
+/// it at draws of what is reported, and what is open is said.
 #[test]
 fn a_budget_that_ends_first() {
     let score = |effects: &[usize]| -(effects.len() as f64);
@@ -133,6 +139,27 @@ fn a_budget_that_ends_first() {
     assert_eq!(ending.open[0].error, Some(3.0));
     // ln(0.5/3)/ln(sqrt(1/2)) is 5.2: six rounds of four
     assert_eq!(ending.open[0].runs, 24);
+}
+
+/// An error where the posterior is once all hypotheses are weighed, and none where it was before: they are
+/// weighed again, and what was known is run no more until the last runs.
+#[test]
+fn what_is_reported_is_weighed_again_where_it_was_not_known() {
+    let score = |effects: &[usize]| if effects.len() == 1 { 0.0 } else { -50.0 };
+    // the two runs at the best points, one round, and then what is reported
+    let error = |effects: &[usize], round: usize| match (effects, round) {
+        ([0], 2) => 7.0,
+        (_, 0) => 5.0,
+        _ => 0.1,
+    };
+    let Followed { batches, ending, .. } = follow(&space(2), 150, score, error);
+    let sizes = |effects: &[usize]| -> Vec<usize> {
+        let own = batches.iter().filter(|batch| batch.effects == effects);
+        own.filter(|batch| batch.focus.is_some()).map(|batch| batch.scores.len()).collect()
+    };
+    assert_eq!(sizes(&[0]), [2, 6, 6, 6]);
+    assert_eq!(sizes(&[1]), [2, 6, 6]);
+    assert_eq!(ending.open, []);
 }
 
 /// A simulator that does not know effects: its own error at its posterior, then the last runs.

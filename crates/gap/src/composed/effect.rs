@@ -104,7 +104,7 @@ impl Compositions {
     /// names that effects have.
     pub(crate) fn effects(&self, setup: &Setup<'_>, unexplained: f64) -> Vec<ComposedEffect> {
         let metric = Metric::new(setup, self.variances.as_deref());
-        let residuals = by_rows(&setup.data.nominal_residuals());
+        let residuals = by_rows(&setup.data.linear_residuals());
         let white = metric.white(&residuals);
         let mut taken: Vec<String> =
             setup.case.candidates.iter().map(|c| c.effect.name.clone()).collect();
@@ -153,7 +153,7 @@ impl Composition {
     pub(super) fn in_data(&self, setup: &Setup<'_>, shares: &[Vec<f64>]) -> Vec<Vec<f64>> {
         let rows = rows_of_points(setup);
         let nominal: Vec<Vec<f64>> =
-            setup.data.points.iter().map(|point| point.nominal.clone()).collect();
+            setup.data.points.iter().map(|point| point.tangent.touching.clone()).collect();
         let by_point = self.columns(setup, &rows, &nominal, shares);
         let outputs = setup.data.outputs.len();
         let spread = |column: Vec<f64>| -> Vec<f64> {

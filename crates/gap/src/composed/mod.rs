@@ -134,7 +134,7 @@ pub(crate) fn compose(
     let variances = departures.kinds.first().and_then(|kind| kind.variances.clone());
     let variances = variances.map(|variances| variances.to_vec());
     let metric = Metric::new(setup, variances.as_deref());
-    let residuals = by_rows(&setup.data.nominal_residuals());
+    let residuals = by_rows(&setup.data.linear_residuals());
     let white = metric.white(&residuals);
     let targets = target::targets(setup);
     let responses: Vec<Response> = parallel::map(&targets, |target| target.in_data(setup));

@@ -8,7 +8,7 @@ use crate::shrink::blocks;
 use gumption_engine::linalg::{DenseRoot, column_products, dot};
 use gumption_engine::task::Row;
 use gumption_inference::data::by_rows;
-use gumption_inference::discrepancy::{conditioned, nominal};
+use gumption_inference::discrepancy::{conditioned, tangent};
 use gumption_inference::predict::Normals;
 use gumption_inference::setup::Setup;
 
@@ -55,11 +55,11 @@ impl Compositions {
         rows: &[Row],
     ) -> Option<Normals> {
         let outputs = setup.data.outputs.len();
-        let of_rows: Vec<_> = rows.iter().map(|row| nominal(setup, row)).collect();
-        let sims: Vec<Vec<f64>> = of_rows.iter().map(|(sims, _)| sims.clone()).collect();
+        let tangents: Vec<_> = rows.iter().map(|row| tangent(setup, row)).collect();
+        let sims: Vec<Vec<f64>> = tangents.iter().map(|of| of.touching.clone()).collect();
         let gradients: Vec<Vec<Vec<f64>>> =
-            of_rows.into_iter().map(|(_, gradients)| gradients).collect();
-        let residuals = by_rows(&setup.data.nominal_residuals());
+            tangents.iter().map(|of| of.gradients.clone()).collect();
+        let residuals = by_rows(&setup.data.linear_residuals());
         let mut sums = vec![(0.0, 0.0); rows.len() * outputs];
         let mut total = 0.0;
         for shares in composition.nearby() {
@@ -82,7 +82,7 @@ impl Compositions {
             };
             total += 1.0;
             for (n, (shift, variance)) in found.into_iter().enumerate() {
-                let mean = sims[n / outputs][n % outputs] + shift;
+                let mean = tangents[n / outputs].at_estimates[n % outputs] + shift;
                 sums[n].0 += mean;
                 sums[n].1 += variance + mean * mean;
             }
@@ -116,7 +116,7 @@ impl Compositions {
     pub(super) fn shrunk(&self, setup: &Setup<'_>, composition: &Composition) -> Shrunk {
         let data = &setup.data;
         let outputs = data.outputs.len();
-        let residuals = by_rows(&data.nominal_residuals());
+        let residuals = by_rows(&data.linear_residuals());
         let variances = self.variances(setup);
         let columns = composition.in_data(setup, &composition.shares());
         let wide = self.wide(setup, &columns);

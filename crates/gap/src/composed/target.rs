@@ -151,7 +151,7 @@ impl Target {
             })
             .collect();
         let nominal: Vec<Vec<f64>> =
-            data.points.iter().map(|point| point.nominal.clone()).collect();
+            data.points.iter().map(|point| point.tangent.touching.clone()).collect();
         let at_points = self.response(setup, &rows, &nominal);
         let outputs = data.outputs.len();
         let spread = |values: &[f64]| -> Vec<f64> {

@@ -1,14 +1,12 @@
 //! Predictions of a simulator in other rows than those of the data.
 
-use std::collections::BTreeMap;
-
 use gumption_emulator::{Batch, PosteriorEmulator, Runs, State, space_filling_scores};
 use gumption_engine::distribution::StreamKey;
+use gumption_engine::number::elementary;
 use gumption_engine::task::Row;
-use gumption_inference::posterior::WeighedHypothesis;
-use gumption_inference::simulator_states;
 
 use super::simulator_runs::SimulatorRuns;
+use super::weighed_states::weighed_states;
 use super::{MakeRuns, SimulatorDiagnosis, refused, without_simulated};
 use crate::OverrideError;
 use crate::diagnosis::{Diagnosis, DiagnosisNote};
@@ -80,21 +78,13 @@ impl SimulatorDiagnosis {
         let (known, space) = (&self.known, &runs.space);
         let setup = known.setup(&known.case);
         let seed = self.diagnosis.seed;
-        let mut lists: BTreeMap<Vec<usize>, (f64, Vec<&WeighedHypothesis>)> = BTreeMap::new();
-        for hypothesis in known.posterior.named().filter(|named| named.evidence.has_draws()) {
-            let own = lists.entry(known.case.simulator_effects(&hypothesis.effects)).or_default();
-            own.0 += hypothesis.probability;
-            own.1.push(hypothesis);
-        }
         let mut batches = Vec::new();
         let mut plain = None;
-        for (effects, (probability, hypotheses)) in lists {
-            if probability < WORTH_RUNS {
-                continue;
-            }
-            let Some(state) = simulator_states::state(&setup, &hypotheses) else { continue };
-            let least = space.unknowns(&effects).len() + 2;
-            let count = ((probability * budget as f64).round() as usize).max(least);
+        for state in weighed_states(&setup, &known.posterior, WORTH_RUNS) {
+            let effects = &state.effects;
+            let least = space.unknowns(effects).len() + 2;
+            let share = elementary::exp(state.score);
+            let count = ((share * budget as f64).round() as usize).max(least);
             let key = StreamKey::new(seed, &format!("emulator/elsewhere/{effects:?}"));
             let batch = state.batch(space, count, key, 0);
             if effects.is_empty() { plain = Some(batch) } else { batches.push(batch) }

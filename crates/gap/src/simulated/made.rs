@@ -7,7 +7,7 @@ use gumption_emulator::{Focus, Plan, Run, RunKey, Runs, Scatter, Space, UnseenEr
 
 use super::simulation::Simulation;
 use super::simulator_runs::SimulatorRuns;
-use super::{SimulatorDiagnosis, refused, repeats};
+use super::{SimulatorDiagnosis, WHILE_RUN, refused, repeats};
 use crate::diagnose::DiagnosisOptions;
 use crate::{Case, OverrideError};
 
@@ -65,12 +65,14 @@ pub fn diagnose_made(
             simulation.emulator.learn(&state.effects, &[], Some(focus));
         }
     }
-    let states = simulation.inferred(all)?;
+    simulation.inferred(all)?;
+    simulation.move_linear()?;
+    let states = simulation.weighed(WHILE_RUN)?;
     if stop.load(Ordering::Relaxed) {
         return Ok(None);
     }
     let errors = states.into_iter().map(|state| {
-        let error = simulation.emulator.unseen(&state.effects).map(UnseenError::median);
+        let error = simulation.emulator.unseen(&state.effects).map(UnseenError::norm);
         (state, error)
     });
     let (ending, next) = Plan::of_made(&space, count, errors.collect(), options.seed);

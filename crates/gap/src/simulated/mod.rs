@@ -1,7 +1,8 @@
 //! The diagnosis of a simulator that is known by its runs.
 //!
 //! A [`Plan`] says which runs come next and which hypotheses to look at; an emulator learns from the runs, and
-//! the inference takes its word for the simulator's. Once the plan ends the diagnosis is made as of any model.
+//! the inference takes its word for the simulator's. Then all hypotheses are weighed as of any model, and run at
+//! draws of what is to be reported, until the emulator is right there.
 //! Predictions in other rows take a few runs there, at draws of the posteriors.
 
 mod case;
@@ -11,21 +12,24 @@ mod notes;
 mod repeats;
 mod simulation;
 mod simulator_runs;
+mod weighed_states;
 
 use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
 
-use gumption_emulator::{Batch, Plan, Step};
 pub use gumption_emulator::{
     Ending, Open, OutputScatter, Parameter, Run, RunHash, RunKey, RunResult, Runs, RunsError,
     Scatter, Simulator, SimulatorCase, SimulatorCondition, SimulatorEffect, SimulatorQuantity,
     Space, SpaceError, TooFewRuns,
 };
 
+use gumption_emulator::{Batch, Plan};
+use gumption_inference::posterior::Effort;
+
 pub use self::case::simulator_case;
 pub use self::elsewhere::{PREDICTION_RUNS, Predictions};
 pub use self::made::diagnose_made;
-use self::simulation::Simulation;
+use self::simulation::{Followed, Simulation};
 use self::simulator_runs::SimulatorRuns;
 use crate::diagnose::DiagnosisOptions;
 use crate::diagnosis::Diagnosis;
@@ -96,6 +100,10 @@ pub type MakeRuns<'m> = dyn FnMut(&[ParameterSet]) -> Vec<RunResult> + 'm;
 /// The share of the work that is done when the last run is made.
 const RUN: f64 = 0.8;
 
+/// How well hypotheses are weighed while runs are made: their draws say where the next ones go, and what is
+/// improbable is not looked at from end to end.
+const WHILE_RUN: Effort<'static> = Effort { generations: 0, ..Effort::QUICK };
+
 /// Diagnoses a case with a simulator, of which `make` makes at most `budget` runs less those among `kept` that
 /// are asked for. The first ones are repeats with all inputs at their medians: they show that the simulator
 /// repeats, or if it is noisy how its outputs scatter. `progress` is told the share that is done. Once `stop` is
@@ -121,32 +129,23 @@ pub fn diagnose(
     let planned = budget.saturating_sub(repeats);
     let mut plan = Plan::new(runs.space.clone(), planned, options.seed)
         .map_err(|error| too_few(error, repeats))?;
-    let is_stopped = || stop.load(Ordering::Relaxed);
     let start = match repeats::start(case, &mut runs, make) {
-        Err(_) if is_stopped() => return Ok(None),
+        Err(_) if stop.load(Ordering::Relaxed) => return Ok(None),
         start => start?,
     };
     let mut simulation = Simulation::new(case, runs, start, options.seed, stop);
-    let mut states = Vec::new();
-    let ending = loop {
-        match plan.next(std::mem::take(&mut states)) {
-            _ if is_stopped() => return Ok(None),
-            Step::Run(batches) => {
-                let made = match simulation.runs.made(batches, make) {
-                    Err(_) if is_stopped() => return Ok(None),
-                    made => made?,
-                };
-                for (batch, made) in made {
-                    let learnt =
-                        simulation.emulator.learn(&batch.effects, &made, batch.focus.clone());
-                    plan.learnt(&batch, learnt.unseen.as_ref());
-                }
-                progress(RUN * plan.used() as f64 / planned as f64);
-            }
-            Step::Infer(asked) => states = simulation.inferred(asked)?,
-            Step::Done(ending) => break Ending { runs: ending.runs + repeats, ..ending },
-        }
-    };
+    let while_run = |used: usize| progress(RUN * used as f64 / planned as f64);
+    let mut followed = simulation.follow(&mut plan, Vec::new(), make, &while_run)?;
+    simulation.move_linear()?;
+    while followed == Followed::ToBeWeighed {
+        let states = simulation.weighed(WHILE_RUN)?;
+        followed = simulation.follow(&mut plan, states, make, &while_run)?;
+    }
+    if followed == Followed::Stopped {
+        return Ok(None);
+    }
+    let ending = plan.ending();
+    let ending = Ending { runs: ending.runs + repeats, ..ending };
     let progress = |share: f64| progress(RUN + (1.0 - RUN) * share);
     simulation.concluded(ending, Vec::new(), repeats, options, &progress).map(Some)
 }

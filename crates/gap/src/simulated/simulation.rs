@@ -1,24 +1,47 @@
 //! A simulator that is being run, and what its emulator knows so far.
 
 use std::sync::Arc;
-use std::sync::atomic::AtomicBool;
+use std::sync::atomic::{AtomicBool, Ordering};
 
-use gumption_emulator::{Emulator, Ending, Scatter, SimulatorRun, State, UnseenError};
-use gumption_inference::posterior::WeighedHypothesis;
+use gumption_emulator::{Emulator, Ending, Plan, Scatter, SimulatorRun, State, Step, UnseenError};
+use gumption_inference::noise::prior_widths::OtherPriors;
+use gumption_inference::posterior::{Effort, WeighedHypothesis};
 use gumption_inference::setup::Setup;
 use gumption_inference::simulator_states;
+use gumption_inference::tangent::{self, LinearAt};
 
 use super::simulator_runs::SimulatorRuns;
-use super::{SimulatorDiagnosis, notes, refused, without_simulated};
+use super::weighed_states::weighed_states;
+use super::{MakeRuns, SimulatorDiagnosis, notes, refused, without_simulated};
 use crate::diagnose::{DiagnosisOptions, diagnosed};
 use crate::diagnosis::DiagnosisNote;
+use crate::weighed::Weighed;
 use crate::{Candidate, Case, OverrideError};
+
+/// The inputs at which a simulator is linear beside departures are found anew so often at most.
+const MOVES: usize = 3;
+
+/// Where they move by less than this, as scores, they stay.
+const MOVED: f64 = 0.1;
+
+/// Why a plan was followed no further.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Followed {
+    /// All hypotheses are to be weighed as they are to be reported.
+    ToBeWeighed,
+    /// The last run was made.
+    Done,
+    /// Somebody stopped it.
+    Stopped,
+}
 
 /// A simulator that is being run.
 pub(super) struct Simulation<'c> {
     case: &'c Case,
     pub(super) runs: SimulatorRuns,
     pub(super) emulator: Emulator,
+    /// The inputs at which it is linear beside departures; `None` for the estimates.
+    linear_at: Option<LinearAt>,
     /// The hypotheses as they were looked at last.
     known: Vec<WeighedHypothesis>,
     seed: u64,
@@ -37,7 +60,7 @@ impl<'c> Simulation<'c> {
         let mut emulator =
             Emulator::new(runs.space.clone(), runs.units.len()).with_scatter(scatter);
         emulator.learn(&[], &start, None);
-        Self { case, runs, emulator, known: Vec::new(), seed, stop }
+        Self { case, runs, emulator, linear_at: None, known: Vec::new(), seed, stop }
     }
 
     /// The case with the emulator as it is.
@@ -50,8 +73,86 @@ impl<'c> Simulation<'c> {
                 None => "no run of the plain simulator is near the data".to_owned(),
             }));
         }
-        let emulated = self.case.emulated(self.emulator.clone(), self.runs.units.clone());
+        let (emulator, units) = (self.emulator.clone(), self.runs.units.clone());
+        let emulated = self.case.emulated(emulator, units, self.linear_at.clone());
         emulated.ok_or_else(|| refused("the case has no simulator".to_owned()))
+    }
+
+    /// Follows a plan, whose last question these states answer, until it asks for all hypotheses or ends;
+    /// `progress` is told how many runs were used.
+    ///
+    /// # Errors
+    /// Runs with another number of values than there are rows; no run of the plain simulator.
+    pub(super) fn follow(
+        &mut self,
+        plan: &mut Plan,
+        mut states: Vec<State>,
+        make: &mut MakeRuns<'_>,
+        progress: &dyn Fn(usize),
+    ) -> Result<Followed, OverrideError> {
+        loop {
+            let step = plan.next(std::mem::take(&mut states));
+            if self.is_stopped() {
+                return Ok(Followed::Stopped);
+            }
+            match step {
+                Step::Run(batches) => {
+                    let made = match self.runs.made(batches, make) {
+                        Err(_) if self.is_stopped() => return Ok(Followed::Stopped),
+                        made => made?,
+                    };
+                    for (batch, made) in made {
+                        let learnt =
+                            self.emulator.learn(&batch.effects, &made, batch.focus.clone());
+                        plan.learnt(&batch, learnt.unseen.as_ref());
+                    }
+                    progress(plan.used());
+                }
+                Step::Infer(asked) => states = self.inferred(asked)?,
+                Step::Weigh => return Ok(Followed::ToBeWeighed),
+                Step::Done(_) => return Ok(Followed::Done),
+            }
+        }
+    }
+
+    /// The states of all lists of the simulator's effects with all hypotheses weighed, as they are to be
+    /// reported.
+    pub(super) fn weighed(&self, effort: Effort<'static>) -> Result<Vec<State>, OverrideError> {
+        let case = self.emulated()?;
+        let others = OtherPriors::of(&case);
+        let effort = Effort { stop: Some(self.stop), ..effort };
+        let Weighed { setup, posterior, .. } =
+            Weighed::new(&case, &others, self.seed, effort, &|_| {});
+        let states = weighed_states(&setup, &posterior, 0.0).into_iter();
+        Ok(states.map(|state| self.for_runs(state)).collect())
+    }
+
+    /// A state as runs need it: those of a simulator that scatters are further apart.
+    fn for_runs(&self, state: State) -> State {
+        match self.emulator.scatter() {
+            Some(scatter) => state.widened(scatter),
+            None => state,
+        }
+    }
+
+    /// Finds the inputs at which the simulator is linear beside departures.
+    pub(super) fn move_linear(&mut self) -> Result<(), OverrideError> {
+        for _ in 0..MOVES {
+            let case = self.emulated()?;
+            let plain = self.known.iter().filter(|of| of.effects.is_empty());
+            let modes = plain.flat_map(|of| &of.evidence.modes).map(|mode| mode.scores.clone());
+            let modes: Vec<Vec<f64>> = modes.collect();
+            let moved = tangent::beside_departure(&Setup::new(&case), &modes, MOVED);
+            if moved.is_none() {
+                break;
+            }
+            self.linear_at = moved;
+        }
+        Ok(())
+    }
+
+    fn is_stopped(&self) -> bool {
+        self.stop.load(Ordering::Relaxed)
     }
 
     /// The states of lists of the simulator's effects, each alone and with one effect that formulas make
@@ -82,12 +183,9 @@ impl<'c> Simulation<'c> {
             simulator_states::explored(&setup, hypotheses, &self.known, self.seed, Some(self.stop));
         let states = asked.iter().filter_map(|effects| {
             let own = |of: &&WeighedHypothesis| case.simulator_effects(&of.effects) == *effects;
-            let own: Vec<&WeighedHypothesis> = found.iter().filter(own).collect();
-            let state = simulator_states::state(&setup, &own)?;
-            Some(match self.emulator.scatter() {
-                Some(scatter) => state.widened(scatter),
-                None => state,
-            })
+            let own = found.iter().filter(own);
+            let own: Vec<(f64, &WeighedHypothesis)> = own.map(|of| (of.ln_weight(), of)).collect();
+            simulator_states::state(&setup, &own).map(|state| self.for_runs(state))
         });
         let states = states.collect();
         self.known.retain(|old| !found.iter().any(|new| new.effects == old.effects));
@@ -113,7 +211,7 @@ impl<'c> Simulation<'c> {
         let is_named = |of: &&Candidate| own.contains(&of.effect.name);
         let named = self.case.candidates.iter().filter(is_named);
         let named: Vec<usize> = named.filter_map(|of| of.simulator).collect();
-        let unseen = self.emulator.unseen(&named).map(UnseenError::median);
+        let unseen = self.emulator.unseen(&named).map(UnseenError::norm);
         let scatter = self.emulator.scatter().cloned();
         let facts = std::iter::once(notes::runs(ending.runs, unseen))
             .chain(notes::scatter(self.case, scatter.as_ref(), repeats))

@@ -19,7 +19,7 @@ pub(super) struct SimulatorRuns {
     /// What the values of a run are counted in: u, output after output.
     pub(super) units: Vec<f64>,
     pub(super) runs: Runs,
-    /// Those that were asked for last.
+    /// Those of the first batch that was asked for last.
     pub(super) last: Vec<Run>,
     /// How often each set of parameters was asked for, of a simulator whose outputs scatter: each time is
     /// another run.
@@ -78,7 +78,7 @@ impl SimulatorRuns {
         }
         self.make_missing(all.iter().flatten(), make)?;
         let found = |key: &RunKey| self.find(key).cloned();
-        self.last = all.iter().flatten().filter_map(found).collect();
+        self.last = all.iter().take(1).flatten().filter_map(found).collect();
         let mut made = Vec::new();
         for (batch, keys) in batches.into_iter().zip(all) {
             let mut learnt = Vec::new();

@@ -100,7 +100,7 @@ pub struct Axes {
 pub(crate) struct Site {
     pub(crate) conditions: Vec<f64>,
     /// For each observed output.
-    pub(crate) nominal: Vec<f64>,
+    pub(crate) sims: Vec<f64>,
 }
 
 impl Axes {
@@ -110,7 +110,8 @@ impl Axes {
             FeatureAxis::spaced(values.collect())
         });
         let sims = (0..data.outputs.len()).map(|output| {
-            let values: Vec<f64> = data.points.iter().map(|point| point.nominal[output]).collect();
+            let values: Vec<f64> =
+                data.points.iter().map(|point| point.tangent.touching[output]).collect();
             FeatureAxis::linear(&values)
         });
         let measured = case.measured();
@@ -138,7 +139,7 @@ pub(crate) fn sites(case: &Case, data: &Data) -> Vec<Site> {
         .enumerate()
         .map(|(row, &point)| Site {
             conditions: case.task.rows[data.ids[row]].conditions.clone(),
-            nominal: data.points[point].nominal.clone(),
+            sims: data.points[point].tangent.touching.clone(),
         })
         .collect()
 }
@@ -161,8 +162,8 @@ impl Coordinates {
                             axes.conditions[condition].place(site.conditions[condition])
                         })
                         .to_vec(),
-                    Of::Sim if term.common => vec![site.nominal[output] / widest],
-                    Of::Sim => vec![axes.sims[output].place(site.nominal[output])],
+                    Of::Sim if term.common => vec![site.sims[output] / widest],
+                    Of::Sim => vec![axes.sims[output].place(site.sims[output])],
                     Of::Together => axes
                         .conditions
                         .iter()
@@ -176,7 +177,7 @@ impl Coordinates {
                     distinct.push(coordinate);
                     distinct.len() - 1
                 });
-                let factor = if term.relative { site.nominal[output] } else { 1.0 };
+                let factor = if term.relative { site.sims[output] } else { 1.0 };
                 if factor != 0.0 {
                     let function = if term.common { 0 } else { number };
                     touched.push((row * outputs + output, place, function, factor));

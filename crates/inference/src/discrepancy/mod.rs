@@ -17,7 +17,7 @@ pub(crate) use form::{Form, forms};
 pub(crate) use grammar::levels;
 pub use grammar::{Of, Term};
 pub use output_sets::OutputSet;
-pub use prediction::{conditioned, nominal};
+pub use prediction::{conditioned, tangent};
 
 use std::sync::Arc;
 
@@ -27,6 +27,7 @@ use nalgebra::{DMatrix, DVector};
 use super::latent::LN_BOUNDED;
 use super::predict;
 use super::setup::Setup;
+use super::tangent::Tangent;
 use crate::integral::search::Mode;
 use crate::logarithm::{HALF_LN_TWO_PI, ln_add};
 use gumption_engine::linalg::packed::{self, triangle};
@@ -108,11 +109,11 @@ pub struct Weighted {
 pub struct Base {
     /// Places of the candidates.
     pub effects: Vec<usize>,
-    /// Scores of all unknown quantities, those of the inputs and the noise at 0.
+    /// Scores of all unknown quantities: of the inputs those at which the model is linear, of the noise 0.
     scores: Vec<f64>,
     /// How many of them are not parameters of the effects.
     shared: usize,
-    /// What is said of the data, row by row.
+    /// What is said of the data, row by row, linear in the inputs and at their estimates.
     pub values: Vec<f64>,
     /// For each parameter the derivatives of these by its score.
     pub slopes: Vec<Vec<f64>>,
@@ -133,7 +134,7 @@ impl Base {
     pub fn at(setup: &Setup<'_>, effects: &[usize], mode: &Mode) -> Option<Self> {
         let shared = setup.roles.len();
         let mut scores = mode.scores.clone();
-        scores.iter_mut().take(shared).for_each(|score| *score = 0.0);
+        scores[..shared].copy_from_slice(&setup.case.linear_scores(&setup.roles));
         let bounded = setup.likelihood(effects).bounded();
         let ln_prior = (bounded.iter().zip(&scores).skip(shared))
             .filter(|(bounded, _)| **bounded)
@@ -159,12 +160,14 @@ impl Base {
         }
         let values = predict::values(setup, &self.effects, &points, rows);
         let values: Vec<Vec<f64>> = values.into_iter().flatten().collect();
+        let at_estimates = shifts(setup, rows);
         let of = |point: usize| values.iter().map(move |draws| draws[point]);
         let slope = |parameter: usize| -> Vec<f64> {
             let sides = of(2 * parameter + 1).zip(of(2 * parameter + 2));
             sides.map(|(up, down)| (up - down) / (2.0 * STEP)).collect()
         };
-        (of(0).collect(), (0..self.scores.len() - self.shared).map(slope).collect())
+        let said = of(0).zip(at_estimates).map(|(value, shift)| value + shift);
+        (said.collect(), (0..self.scores.len() - self.shared).map(slope).collect())
     }
 
     /// What is said of the data where only some of the effects act, at the same point.
@@ -173,8 +176,10 @@ impl Base {
         for &effect in acting {
             scores.extend_from_slice(&self.scores[setup.parameters(&self.effects, effect)]);
         }
-        let values = predict::values(setup, acting, &[scores], &setup.all_rows());
-        values.into_iter().flatten().filter_map(|draws| draws.first().copied()).collect()
+        let rows = setup.all_rows();
+        let values = predict::values(setup, acting, &[scores], &rows).into_iter().flatten();
+        let said = values.filter_map(|draws| draws.first().copied()).zip(shifts(setup, &rows));
+        said.map(|(value, shift)| value + shift).collect()
     }
 
     /// What slopes make of the scores of the point, for so many values.
@@ -200,6 +205,18 @@ impl Base {
         let linear = self.linear_part(&self.slopes, self.values.len());
         self.left(setup).iter().zip(linear).map(|(left, linear)| left + linear).collect()
     }
+}
+
+/// What the inputs add in rows, by value, on the way from where the model is linear to their estimates.
+fn shifts(setup: &Setup<'_>, rows: &[Row]) -> Vec<f64> {
+    if setup.case.is_linear_at_estimates() {
+        return vec![0.0; rows.len() * setup.data.outputs.len()];
+    }
+    let shift = |row: &Row| -> Vec<f64> {
+        let Tangent { touching, at_estimates, .. } = tangent(setup, row);
+        at_estimates.iter().zip(touching).map(|(to, from)| to - from).collect()
+    };
+    rows.iter().flat_map(shift).collect()
 }
 
 impl Unexplained {

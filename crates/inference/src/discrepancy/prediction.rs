@@ -9,6 +9,7 @@ use super::{Base, Discrepancy, Parts, Weighted};
 use crate::data::by_rows;
 use crate::predict::Normals;
 use crate::setup::Setup;
+use crate::tangent::Tangent;
 use gumption_engine::task::Row;
 
 /// What the model says, or effects that act beside a discrepancy, without what is linear in their
@@ -25,15 +26,10 @@ struct InRows {
 }
 
 impl InRows {
-    fn of(
-        setup: &Setup<'_>,
-        base: Option<&Arc<Base>>,
-        rows: &[Row],
-        nominals: &[(Vec<f64>, Vec<Vec<f64>>)],
-    ) -> Self {
+    fn of(setup: &Setup<'_>, base: Option<&Arc<Base>>, rows: &[Row], tangents: &[Tangent]) -> Self {
         let Some(base) = base else {
-            let sims = nominals.iter().flat_map(|(sim, _)| sim.clone()).collect();
-            let residuals = by_rows(&setup.data.nominal_residuals());
+            let sims = tangents.iter().flat_map(|of| of.at_estimates.clone()).collect();
+            let residuals = by_rows(&setup.data.linear_residuals());
             let (slopes, slopes_there) = (Vec::new(), Vec::new());
             return Self { base: None, residuals, sims, slopes, slopes_there };
         };
@@ -71,18 +67,17 @@ impl Discrepancy {
         growth: &[f64],
     ) -> Normals {
         let outputs = setup.data.outputs.len();
-        let nominals: Vec<(Vec<f64>, Vec<Vec<f64>>)> =
-            rows.iter().map(|row| nominal(setup, row)).collect();
+        let tangents: Vec<Tangent> = rows.iter().map(|row| tangent(setup, row)).collect();
         let sites: Vec<Site> = rows
             .iter()
-            .zip(&nominals)
-            .map(|(row, (nominal, _))| Site {
+            .zip(&tangents)
+            .map(|(row, tangent)| Site {
                 conditions: row.conditions.clone(),
-                nominal: nominal.clone(),
+                sims: tangent.touching.clone(),
             })
             .collect();
         let gradients: Vec<Vec<Vec<f64>>> =
-            nominals.iter().map(|(_, gradients)| gradients.clone()).collect();
+            tangents.iter().map(|tangent| tangent.gradients.clone()).collect();
         let total: f64 = kinds.iter().map(|kind| kind.weight).sum();
         let mut bases: Vec<InRows> = Vec::new();
         let mut sums = vec![vec![(0.0, 0.0); outputs]; rows.len()];
@@ -91,7 +86,7 @@ impl Discrepancy {
             let share = kind.weight / total;
             let known = bases.iter().position(|known| known.is_of(kind.base.as_ref()));
             let place = known.unwrap_or_else(|| {
-                bases.push(InRows::of(setup, kind.base.as_ref(), rows, &nominals));
+                bases.push(InRows::of(setup, kind.base.as_ref(), rows, &tangents));
                 bases.len() - 1
             });
             let InRows { residuals, sims, slopes, slopes_there, .. } = &bases[place];
@@ -151,7 +146,7 @@ impl Discrepancy {
             .data
             .point_of
             .iter()
-            .map(|&point| setup.data.points[point].gradients.clone())
+            .map(|&point| setup.data.points[point].tangent.gradients.clone())
             .collect();
         let nothing: Vec<Vec<Vec<f64>>> = gradients
             .iter()
@@ -210,7 +205,7 @@ pub fn conditioned(
             let value = row * outputs + output;
             let weight = variances[value].sqrt().recip();
             for (j, &v) in shared.iter().enumerate() {
-                let own = effect(&point.gradients, &setup.case.task.rows[id], output, v);
+                let own = effect(&point.tangent.gradients, &setup.case.task.rows[id], output, v);
                 design[(value, j)] = own * weight;
             }
             for j in 0..m {
@@ -245,13 +240,7 @@ pub fn conditioned(
     Some(found)
 }
 
-/// What the model says in a row at the inputs' estimates, with its derivatives.
-pub fn nominal(setup: &Setup<'_>, row: &Row) -> (Vec<f64>, Vec<Vec<f64>>) {
-    let variables = row.estimates();
-    let (values, gradients) = setup.case.gradients(&variables);
-    let outputs = &setup.data.outputs;
-    (
-        outputs.iter().map(|&output| values[output]).collect(),
-        outputs.iter().map(|&output| gradients[output].clone()).collect(),
-    )
+/// The observed outputs in a row as linear functions of the inputs.
+pub fn tangent(setup: &Setup<'_>, row: &Row) -> Tangent {
+    setup.case.tangent(row).of_outputs(&setup.data.outputs)
 }

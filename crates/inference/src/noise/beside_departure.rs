@@ -29,7 +29,7 @@ pub(crate) fn ln_departure(weighing: &Weighing<'_>, suspects: &[Suspect]) -> f64
     let model = NoiseModel::with_suspects(suspects.to_vec());
     let prior = model.prior(weighing.setup.data.len());
     let setup = weighing.setup.with_noise(model);
-    let residuals = by_rows(&setup.data.nominal_residuals());
+    let residuals = by_rows(&setup.data.linear_residuals());
     let found = Discrepancy::new(&setup).evidence(&setup, &residuals, f64::NEG_INFINITY);
     elementary::ln(prior) + found.ln_evidence
 }
@@ -60,7 +60,7 @@ fn standing_out(setup: &Setup<'_>) -> Vec<(f64, usize, usize)> {
     let conditions = setup.case.set_conditions();
     let orders: Vec<Vec<usize>> = conditions.map(|condition| setup.rows_along(condition)).collect();
     let mut found = Vec::new();
-    for (output, residuals) in setup.data.nominal_residuals().into_iter().enumerate() {
+    for (output, residuals) in setup.data.linear_residuals().into_iter().enumerate() {
         let scaled = |row: usize| match &setup.data.uncertainties[output] {
             Some(stated) => residuals[row] / stated[row],
             None => residuals[row],

@@ -13,6 +13,7 @@ use super::cases::{candidate, case, normal, observed, quantity};
 use crate::latent::Role;
 use crate::predict;
 use crate::setup::Setup;
+use crate::tangent::LinearAt;
 use crate::{Case, ModelForm, SimulatorModel, simulator_conditions};
 
 const ROWS: usize = 12;
@@ -59,7 +60,7 @@ fn measured() -> Case {
 }
 
 /// The case after enough runs: the emulator is known within hundredths of u.
-fn emulated() -> Case {
+pub(crate) fn emulated(linear_at: Option<LinearAt>) -> Case {
     let case = measured();
     let space = case.simulator.as_ref().unwrap().space().clone();
     let units = case.simulator_units();
@@ -75,14 +76,14 @@ fn emulated() -> Case {
         });
         emulator.learn(&effects, &runs.collect::<Vec<_>>(), None);
     }
-    case.emulated(emulator, units).unwrap()
+    case.emulated(emulator, units, linear_at).unwrap()
 }
 
 /// The tolerance of a value is a twentieth of u, of a derivative what that is over half a standard deviation
 /// of the input.
 #[test]
 fn values_and_derivatives_are_those_of_the_simulator() {
-    let case = emulated();
+    let case = emulated(None);
     let (u, du) = (0.01 / 20.0, 0.01 / 20.0 / 0.025);
     for (number, row) in case.task.rows.iter().enumerate() {
         let (values, gradients) = case.gradients(&row.estimates());
@@ -121,7 +122,7 @@ fn values_and_derivatives_are_those_of_the_simulator() {
 /// What the emulator does not know stands in the covariance of its hypothesis and of no other.
 #[test]
 fn what_is_not_known_is_in_the_covariance() {
-    let case = emulated();
+    let case = emulated(None);
     let setup = Setup::new(&case);
     let basis = |effects: &[usize]| setup.likelihood(effects).covariance.raw_basis.clone();
     let emulator = case.simulator.as_ref().unwrap().emulator().unwrap();
