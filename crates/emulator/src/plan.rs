@@ -21,8 +21,8 @@ const VERDICT: usize = 4;
 /// The share of the budget that is kept for draws of what is to be reported: one tenth.
 const KEPT: usize = 10;
 
-/// Hypotheses are weighed again after runs at draws of what was to be reported, so often at most.
-const CHECKS: usize = 3;
+/// So often hypotheses are weighed and run at draws of what is to be reported, at most.
+const CHECKS: usize = 2;
 
 /// Hypotheses of at least this probability are run at draws of what is to be reported.
 const PROBABLE: f64 = 0.01;
@@ -72,7 +72,7 @@ const ROUNDS: usize = 20;
 /// Then all hypotheses are weighed as they are to be reported, [`Step::Weigh`], and those above a probability
 /// of 0.01 are run at draws of these posteriors, which other noises and departures beside the effects may have
 /// moved. Where the emulator was off by more than 0.5 u, and by so much that it moves a probability by 0.03,
-/// they are weighed again, three times at most. A tenth of the budget is kept for this. The last runs are those
+/// they are weighed and run once more. A tenth of the budget is kept for this. The last runs are those
 /// at what is reported.
 ///
 /// The plan follows from its seed and from what it is told: somebody who made its runs before makes none
@@ -241,7 +241,13 @@ impl Plan {
             }
             Stage::Checked => {
                 self.note_checked();
-                if self.unchecked().is_empty() { Step::Done(self.ending()) } else { self.weigh() }
+                if self.unchecked().is_empty() {
+                    Step::Done(self.ending())
+                } else if self.checks < CHECKS && self.left() > 0 {
+                    self.weigh()
+                } else {
+                    self.last_runs()
+                }
             }
             Stage::Verdict => {
                 self.note_checked();
@@ -260,22 +266,26 @@ impl Plan {
         self.checks += 1;
         let mut left = self.left();
         let mut batches = Vec::new();
-        if self.checks <= CHECKS {
-            for state in self.unchecked() {
-                let count = runs_in_round(&state.effects).min(left);
-                if count > 0 {
-                    batches.push(self.batch(state, count));
-                    left -= count;
-                }
+        for state in self.unchecked() {
+            let count = runs_in_round(&state.effects).min(left);
+            if count > 0 {
+                batches.push(self.batch(state, count));
+                left -= count;
             }
         }
         if batches.is_empty() {
-            let count = VERDICT.min(self.budget - self.used);
-            batches.extend(self.weighed.first().map(|best| self.batch(best, count)));
-        } else {
-            self.stage = Stage::Checked;
+            return self.last_runs();
         }
+        self.stage = Stage::Checked;
         self.run(batches)
+    }
+
+    /// Runs at the best of what is to be reported.
+    fn last_runs(&mut self) -> Step {
+        self.stage = Stage::Verdict;
+        let count = VERDICT.min(self.budget - self.used);
+        let best = self.weighed.first().map(|best| self.batch(best, count));
+        self.run(best.into_iter().collect())
     }
 
     /// What is to be reported and not known well enough there.

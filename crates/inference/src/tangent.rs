@@ -88,8 +88,12 @@ impl Case {
     }
 }
 
+/// Inputs further than this from their estimates, as scores, are there because nothing explains the data.
+const FARTHEST: f64 = 4.0;
+
 /// The simulator's inputs that are most probable beside the heaviest departure without effects, where they are
-/// further than `least` from those at which it is linear now, as scores; `None` elsewhere. `known` are points to
+/// further than `least` from those at which it is linear now, as scores, and not far out in their priors; `None`
+/// elsewhere. `known` are points to
 /// look from, scores of the unknown quantities without effects.
 pub fn beside_departure(setup: &Setup<'_>, known: &[Vec<f64>], least: f64) -> Option<LinearAt> {
     let simulator = setup.case.simulator.as_ref()?;
@@ -108,6 +112,9 @@ pub fn beside_departure(setup: &Setup<'_>, known: &[Vec<f64>], least: f64) -> Op
     });
     let inputs: Vec<(usize, usize, &Map)> = inputs.collect();
     if inputs.iter().all(|(place, ..)| (mode.scores[*place] - now[*place]).abs() <= least) {
+        return None;
+    }
+    if inputs.iter().any(|(place, ..)| mode.scores[*place].abs() > FARTHEST) {
         return None;
     }
     let mixed = likelihood.mixed(&likelihood.columns(std::slice::from_ref(&mode.scores)));
