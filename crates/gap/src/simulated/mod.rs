@@ -9,6 +9,7 @@ mod elsewhere;
 mod notes;
 mod simulation;
 mod simulator_runs;
+pub(crate) mod untold;
 
 use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};

@@ -461,6 +461,9 @@ const GAP: Sentences = &[
         that no single one is proposed as a measurement"),
     ("simulator.runs", "The simulator was run {runs} times. Its rows belong together, so that no single one is \
         proposed as a measurement"),
+    ("simulator.untold", "These data tell nothing of {names}: each is known no better than its prior says"),
+    ("simulator.together", "These data tell {first} and {second} together and neither alone: their correlation \
+        coefficient is {coefficient}"),
     ("simulator.failed", "{failed} of {runs} runs of the simulator failed, the first at {at}: {why}"),
     ("extrapolation", "{outside} of {rows} rows of the prediction lie outside of the conditions of the data. \
         No effect of the list says how the departure goes on there: smooth and composed departures are \

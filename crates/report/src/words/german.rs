@@ -508,6 +508,10 @@ const GAP: Sentences = &[
         Seine Zeilen gehören zusammen, so dass keine einzelne als Messung vorgeschlagen wird"),
     ("simulator.runs", "Der Simulator lief {runs}-mal. Seine Zeilen gehören zusammen, so dass keine einzelne als \
         Messung vorgeschlagen wird"),
+    ("simulator.untold", "Die Daten sagen nichts über {names}: Bekannt ist davon nicht mehr, als die \
+        A-priori-Verteilung sagt"),
+    ("simulator.together", "Die Daten sagen etwas über {first} und {second} zusammen und über keines allein: Ihr \
+        Korrelationskoeffizient ist {coefficient}"),
     ("simulator.failed", "{failed} von {runs} Läufen des Simulators schlugen fehl, der erste bei {at}: {why}"),
     ("extrapolation", "{outside} von {rows} Zeilen der Vorhersage liegen außerhalb der Bedingungen der Daten. \
         Kein Effekt der Liste sagt, wie die Abweichung dort weitergeht: Glatte und zusammengesetzte \
