@@ -74,8 +74,7 @@ fn main() -> Result<(), Box<dyn Error>> {
     let mut make = |sets: &[ParameterSet]| sets.iter().map(|set| run(set, times)).collect();
     let kept = Runs::new(given.parameter_names());
     let never = AtomicBool::new(false);
-    let found =
-        diagnose(&case, &mut make, 300, kept, DiagnosisOptions::new(1), &|_| (), &never)?;
+    let found = diagnose(&case, &mut make, 300, kept, DiagnosisOptions::new(1), &|_| (), &never)?;
     let found = found.ok_or("interrupted")?;
     let verdict = &found.diagnosis.most_probable;
     println!("{} with probability {:.3}", verdict.effects.join(" + "), verdict.probability);
