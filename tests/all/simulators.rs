@@ -105,3 +105,24 @@ fn a_lateral_mode_of_a_shaker_is_found() {
 fn a_lateral_mode_that_is_not_on_the_list_is_refused() {
     is_refused("shaker");
 }
+
+/// What the chapter shows of a program is what the program says.
+#[test]
+fn the_chapter_shows_the_programs() {
+    let chapter = fs::read_to_string(root().join("docs/simulators.md")).unwrap();
+    let mut shown = 0;
+    for (begin, program) in [
+        ("def swing", "pendulum/pendulum.py"),
+        ("for line in sys.stdin", "pendulum/pendulum.py"),
+        ("for end in range", "chain/chain.py"),
+    ] {
+        let program = fs::read_to_string(folder(program)).unwrap();
+        let lines: Vec<&str> = program.lines().map(str::trim).collect();
+        let blocks = chapter.split("```python\n").skip(1).filter_map(|of| of.split("```").next());
+        for line in blocks.filter(|block| block.contains(begin)).flat_map(str::lines) {
+            assert!(lines.contains(&line.trim()), "{line}");
+            shown += 1;
+        }
+    }
+    assert!(shown > 25, "{shown} lines");
+}
