@@ -3,7 +3,7 @@
     python3 benches/gap_simulator.py BENCHES ANSWERS
 
 BENCHES is a folder of cases with truth, exact posterior, benches.py and score.py; ANSWERS holds what its run.py
-found with the package installed, one file a case. Needs numpy and what the benches need.
+found with the package installed, or the command line, one file a case. Needs numpy and what the benches need.
 """
 import json
 import pathlib
@@ -27,7 +27,7 @@ FIGURES = [
 
 TEXT = """# The gap of simulators
 
-Written by `python3 benches/gap_simulator.py BENCHES ANSWERS` from the answers of the Python package to {cases} practice cases on {benches} simulated benches: {names}. Their data are synthetic with 200 to 2000 rows and known truth; {withheld} of them hold an effect that is not on their list. *Exact* is the posterior by the simulator itself, with as many runs as it takes, checked against nested sampling: what these data tell at best. Each case had 400 runs.
+Written by `python3 benches/gap_simulator.py BENCHES ANSWERS` from answers to {cases} practice cases on {benches} simulated benches: {names}. Their data are synthetic with {least} to {most} rows and known truth; {withheld} of them hold an effect that is not on their list. *Exact* is the posterior by the simulator itself, with as many runs as it takes, checked against nested sampling: what these data tell at best. Each case had 400 runs at most.
 
 | | gumption | exact | goal |
 |---|---|---|---|
@@ -131,7 +131,8 @@ def report(folder, answers):
     summary = (f"Runs: {sum(runs)} in all, {middle} in the middle, {max(runs)} at most. Processor time: gumption {sum(own):.0f} s "
                f"in all and {max(own):.1f} s at most, the simulators about {sum(of_simulator):.2g} s in all.")
     withheld = sum(row[4] == "yes" for row in rows)
-    return TEXT.format(cases=len(rows), withheld=withheld, benches=len(names), names=", ".join(sorted(names)), table=table(lines), verdict=last,
+    counts = [row[2] for row in rows]
+    return TEXT.format(cases=len(rows), withheld=withheld, least=min(counts), most=max(counts), benches=len(names), names=", ".join(sorted(names)), table=table(lines), verdict=last,
                        rows="\n".join("| " + " | ".join(str(cell) for cell in row) + " |" for row in rows), summary=summary)
 
 

@@ -3,13 +3,14 @@
 //! ```sh
 //! cargo run --release --example own_simulator
 //! ```
+#![allow(clippy::disallowed_methods)] // the simulator's own functions
 
 use std::error::Error;
 use std::path::Path;
 use std::sync::atomic::AtomicBool;
 
 use gumption::gap::DiagnosisOptions;
-use gumption::gap::simulated::{ParameterSet, Runs, diagnose, simulator_case};
+use gumption::gap::simulated::{ParameterSet, Runs, SimulatorDiagnosis, diagnose, simulator_case};
 
 /// The longest step in s.
 const STEP: f64 = 0.0125;
@@ -65,7 +66,8 @@ fn run(set: &ParameterSet, times: &[f64]) -> Result<Vec<f64>, String> {
     Ok(Pendulum { length, g, release, viscous, quadratic, coulomb }.swing(times))
 }
 
-fn main() -> Result<(), Box<dyn Error>> {
+/// The diagnosis of the measured swing, with at most 300 runs.
+pub(crate) fn diagnosed() -> Result<SimulatorDiagnosis, Box<dyn Error>> {
     let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("models/simulators/pendulum");
     let case = gumption::file::read_case(&folder.join("case.json"))?.case;
     let given = simulator_case(&case, &case.task.rows).ok_or("the case has no simulator")?;
@@ -75,7 +77,12 @@ fn main() -> Result<(), Box<dyn Error>> {
     let kept = Runs::new(given.parameter_names());
     let never = AtomicBool::new(false);
     let found = diagnose(&case, &mut make, 300, kept, DiagnosisOptions::new(1), &|_| (), &never)?;
-    let found = found.ok_or("interrupted")?;
+    Ok(found.ok_or("interrupted")?)
+}
+
+#[allow(dead_code, clippy::print_stdout)]
+fn main() -> Result<(), Box<dyn Error>> {
+    let found = diagnosed()?;
     let verdict = &found.diagnosis.most_probable;
     println!("{} with probability {:.3}", verdict.effects.join(" + "), verdict.probability);
     for parameter in found.diagnosis.hypotheses.iter().take(1).flat_map(|best| &best.parameters) {
