@@ -63,6 +63,7 @@ mod schema;
 mod seeds;
 mod seldom_meant;
 mod simulator_process;
+mod simulators;
 mod sizes;
 mod stack;
 mod strangers;

@@ -6,6 +6,7 @@ use super::diagnosis::{
 use super::far_input::{self, FarInput};
 use super::goodness_of_fit::misfit;
 use super::row_drift;
+use super::simulated::untold;
 use super::turns;
 use super::unit_slip;
 use gumption_engine::decimal::significant;
@@ -96,6 +97,7 @@ pub(crate) fn notes(
     if verdict.indistinguishable.len() > 1 {
         note(fact!("look-alikes"));
     }
+    untold::facts(setup, winner).into_iter().for_each(&mut note);
     if gap.present && !shrinkage.meaningful {
         note(fact!("small-gap"));
     }

@@ -240,7 +240,7 @@ impl<'c> Likelihood<'c> {
     }
 
     /// The correlated scores of independent ones.
-    pub(crate) fn mixed(&self, scores: &[Column]) -> Vec<Column> {
+    pub fn mixed(&self, scores: &[Column]) -> Vec<Column> {
         let Some(mixing) = &self.mixing else { return scores.to_vec() };
         mixing
             .iter()

@@ -12,6 +12,7 @@ mod notes;
 mod repeats;
 mod simulation;
 mod simulator_runs;
+pub(crate) mod untold;
 mod weighed_states;
 
 use std::sync::Arc;

@@ -470,6 +470,9 @@ const GAP: Sentences = &[
         as correlated over rows, with a coefficient of {correlation} between neighbours that falls as its powers, \
         and the same for all parameters. The data are compared with the mean of the simulator, and what the \
         scatter of the runs leaves unknown of it counts as an uncertainty"),
+    ("simulator.untold", "These data tell nothing of {names}: each is known no better than its prior says"),
+    ("simulator.together", "These data tell {first} and {second} together and neither alone: their correlation \
+        coefficient is {coefficient}"),
     ("simulator.failed", "{failed} of {runs} runs of the simulator failed, the first at {at}: {why}"),
     ("extrapolation", "{outside} of {rows} rows of the prediction lie outside of the conditions of the data. \
         No effect of the list says how the departure goes on there: smooth and composed departures are \

@@ -517,6 +517,10 @@ const GAP: Sentences = &[
         über die Zeilen korreliert genommen, mit einem Koeffizienten von {correlation} zwischen Nachbarn, der mit \
         seinen Potenzen fällt, und als gleich für alle Parameter. Verglichen wird mit dem Mittel des Simulators, \
         und was die Streuung der Läufe daran offen lässt, zählt als Unsicherheit"),
+    ("simulator.untold", "Die Daten sagen nichts über {names}: Bekannt ist davon nicht mehr, als die \
+        A-priori-Verteilung sagt"),
+    ("simulator.together", "Die Daten sagen etwas über {first} und {second} zusammen und über keines allein: Ihr \
+        Korrelationskoeffizient ist {coefficient}"),
     ("simulator.failed", "{failed} von {runs} Läufen des Simulators schlugen fehl, der erste bei {at}: {why}"),
     ("extrapolation", "{outside} von {rows} Zeilen der Vorhersage liegen außerhalb der Bedingungen der Daten. \
         Kein Effekt der Liste sagt, wie die Abweichung dort weitergeht: Glatte und zusammengesetzte \
