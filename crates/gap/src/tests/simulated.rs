@@ -405,32 +405,55 @@ fn a_program_that_does_not_repeat_is_an_error() {
     assert_eq!(notes(&found, "simulator.scatter"), 0);
 }
 
-/// Runs of a design that were made elsewhere: of a program that is noisy some have the same parameters, and show
-/// its scatter.
+/// The runs of a design with those of a program that scatters so much.
+fn made_of_design(case: &Case, count: usize, scatter: f64) -> Runs {
+    let names: Arc<[String]> = case.simulator.as_ref().unwrap().space().names().into();
+    let mut kept = no_runs(case);
+    let asked = design(case, count, 1).unwrap();
+    for (call, RunKey { parameters, repetition }) in asked.into_iter().enumerate() {
+        let set = ParameterSet { names: names.clone(), values: parameters.clone(), repetition };
+        let result = Ok(noisy(call, &set, scatter, 0.0));
+        kept.keep(Run { parameters, repetition, result }).unwrap();
+    }
+    kept
+}
+
+/// Runs of a design that were made elsewhere, and those that would tell more, until nothing is left open: what
+/// the first ones name is open, and what the last ones name is right.
 #[test]
 fn a_diagnosis_takes_runs_that_were_made_before() {
-    let mut case = pendulum(0.0, 3e-4, &BOTH);
-    let found = |case: &Case, scatter: f64| {
-        let mut kept = no_runs(case);
-        for (call, RunKey { parameters, repetition }) in
-            design(case, 100, 1).unwrap().into_iter().enumerate()
-        {
-            let names = case.simulator.as_ref().unwrap().space().names().into();
-            let set = ParameterSet { names, values: parameters.clone(), repetition };
-            let result = Ok(noisy(call, &set, scatter, 0.0));
-            kept.keep(Run { parameters, repetition, result }).unwrap();
-        }
+    let case = pendulum(0.0, 3e-4, &BOTH);
+    let mut kept = made_of_design(&case, 100, 0.0);
+    let names: Arc<[String]> = case.simulator.as_ref().unwrap().space().names().into();
+    for round in 0..6 {
         let options = DiagnosisOptions::new(1);
-        diagnose_made(case, kept, options, &|_| {}, &NEVER).unwrap().unwrap()
-    };
-    let quiet = found(&case, 0.0);
-    assert!(quiet.scatter.is_none() && quiet.ending.runs == 100);
-    assert_eq!(quiet.diagnosis.most_probable.effects, ["pivot-friction"]);
-    // what would tell more is near the posteriors of what they leave open
-    assert!(!quiet.more.is_empty() && quiet.more.len() < 100, "{:?}", quiet.ending);
+        let found = diagnose_made(&case, kept.clone(), options, &|_| {}, &NEVER).unwrap().unwrap();
+        assert_eq!(found.ending.runs, kept.made().len());
+        assert_eq!(found.ending.open.is_empty(), found.more.is_empty());
+        if found.more.is_empty() {
+            assert_eq!(found.diagnosis.most_probable.effects, ["pivot-friction"]);
+            assert!(round > 0);
+            return;
+        }
+        for parameters in found.more.into_iter().filter(|of| found.runs.find(of).is_none()) {
+            let set =
+                ParameterSet { names: names.clone(), values: parameters.clone(), repetition: 0 };
+            kept.keep(Run { parameters, repetition: 0, result: run(&set) }).unwrap();
+        }
+    }
+    panic!("still open with {} runs", kept.made().len());
+}
+
+/// Of a program that is noisy some runs of a design have the same parameters, and show its scatter.
+#[test]
+fn runs_that_were_made_before_show_a_scatter() {
+    let mut case = pendulum(0.0, 3e-4, &BOTH);
     let model = SimulatorModel::new(case.simulator.as_ref().unwrap().space().clone());
     case.simulator = Some(Arc::new(model.noisy(true)));
-    let scatter = found(&case, 0.3).scatter.unwrap().outputs()[0].deviation;
+    let kept = made_of_design(&case, 40, 0.3);
+    let options = DiagnosisOptions::new(1);
+    let found = diagnose_made(&case, kept, options, &|_| {}, &NEVER).unwrap().unwrap();
+    let scatter = found.scatter.unwrap().outputs()[0].deviation;
     // as above
     assert!((scatter - 0.3).abs() < 0.1 * 0.3, "{scatter:?}");
 }
