@@ -7,7 +7,7 @@ mod evidence;
 mod influence;
 mod likelihood;
 mod shape;
-mod simulator;
+pub(crate) mod simulator;
 mod thresholds;
 
 use crate::logarithm::HALF_LN_TWO_PI;
