@@ -4,6 +4,8 @@ use gumption_engine::linalg::dot;
 use gumption_engine::linalg::packed;
 use gumption_engine::number::smallest_first;
 
+use crate::emulator::SimulatorRun;
+use crate::layer::nearest_count;
 use crate::space::Space;
 
 /// The variance that is added along each scaled coordinate: a posterior of no width is one of about 0.01
@@ -56,6 +58,27 @@ impl Focus {
     /// of it.
     pub fn is_narrow(&self) -> bool {
         self.narrow
+    }
+
+    /// Parts runs into those to learn from and those that then tell the error at the posterior: every third of
+    /// the runs that a local layer learns from.
+    pub fn parted(
+        &self,
+        space: &Space,
+        effects: &[usize],
+        runs: Vec<SimulatorRun>,
+    ) -> (Vec<SimulatorRun>, Vec<SimulatorRun>) {
+        let point = |run: &SimulatorRun| -> Vec<f64> {
+            space.at_scores(effects, &run.scores).iter().map(|c| c.at).collect()
+        };
+        let points: Vec<Vec<f64>> = runs.iter().map(point).collect();
+        let near = self.nearest(&points, nearest_count(self.centre.len()));
+        let held: Vec<usize> = near.into_iter().skip(2).step_by(3).collect();
+        let mut parts = (Vec::new(), Vec::new());
+        for (place, run) in runs.into_iter().enumerate() {
+            if held.contains(&place) { parts.1.push(run) } else { parts.0.push(run) }
+        }
+        parts
     }
 
     /// The places of the points that are nearest to the posterior in its own scale (the distance of

@@ -25,6 +25,11 @@ const NEAREST: usize = 6;
 /// And from so many at least.
 const LEAST_NEAREST: usize = 20;
 
+/// How many runs a local layer of so many unknowns learns from.
+pub(crate) fn nearest_count(unknowns: usize) -> usize {
+    (NEAREST * unknowns).max(LEAST_NEAREST)
+}
+
 /// What a layer is to know.
 #[derive(Clone, Debug)]
 pub enum Reach<'f> {
@@ -64,7 +69,7 @@ impl Layer {
         let places = match reach {
             // few runs near a posterior would show little but their scatter
             Reach::Near(focus) if scatter.is_none() => {
-                focus.nearest(points, (NEAREST * points[0].len()).max(LEAST_NEAREST))
+                focus.nearest(points, nearest_count(points[0].len()))
             }
             _ => (0..points.len()).collect(),
         };

@@ -175,29 +175,32 @@ impl Plan {
         Ok(filled(space, runs, seed))
     }
 
-    /// What runs that were made elsewhere leave open, from the states of all hypotheses, as after
-    /// [`Step::Weigh`], and the errors of the emulator, the norm over all rows in u, where they are known; and
-    /// the runs of the next round.
+    /// What runs that were made elsewhere leave open, and the runs of the next round. `weighed` are the states of
+    /// all hypotheses, as after [`Step::Weigh`], each with the error of the emulator at its posterior, the norm
+    /// over all rows in u, where that is known; `singles` are others, as after [`Step::Infer`], that are not to
+    /// be left out before they are known.
     pub fn of_made(
         space: &Space,
         runs: usize,
-        found: Vec<(State, Option<f64>)>,
+        weighed: Vec<(State, Option<f64>)>,
+        singles: Vec<(State, Option<f64>)>,
         seed: u64,
     ) -> (Ending, Vec<Batch>) {
-        let (used, budget) = (runs, runs);
-        let mut plan = Self { used, ..Self::begun(space.clone(), budget, seed) };
-        for (state, error) in found {
-            if let Some(last) = error {
+        let mut plan = Self { used: runs, ..Self::begun(space.clone(), runs, seed) };
+        for (state, error) in weighed.iter().chain(&singles) {
+            if let &Some(last) = error {
                 plan.errors.insert(state.effects.clone(), Errors { last, before: None });
             }
-            plan.weighed.push(state);
         }
+        plan.weighed = weighed.into_iter().map(|(state, _)| state).collect();
         plan.sort_weighed();
         plan.note_checked();
         let ending = plan.ending();
         let open = plan.unchecked().into_iter();
-        let next = open.map(|state| plan.batch(state, runs_in_round(&state.effects)));
-        let next = next.collect();
+        let mut next: Vec<Batch> =
+            open.map(|state| plan.batch(state, runs_in_round(&state.effects))).collect();
+        let unknown = singles.iter().filter(|(state, _)| !plan.is_known(&state.effects));
+        next.extend(unknown.map(|(state, _)| plan.batch(state, FIRST)));
         (ending, next)
     }
 

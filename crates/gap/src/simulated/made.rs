@@ -3,7 +3,7 @@
 use std::collections::BTreeMap;
 use std::sync::atomic::{AtomicBool, Ordering};
 
-use gumption_emulator::{Focus, Plan, Run, RunKey, Runs, Scatter, Space, UnseenError};
+use gumption_emulator::{Focus, Plan, Run, RunKey, Runs, Scatter, Space, State, UnseenError};
 
 use super::simulation::Simulation;
 use super::simulator_runs::SimulatorRuns;
@@ -13,9 +13,6 @@ use crate::{Case, OverrideError};
 
 /// A constant parameter may be off by so much of itself, as of a table with fifteen digits.
 const ROUNDING: f64 = 1e-9;
-
-/// The share of the runs of a list of effects that the emulator learns from before the rest tells its error.
-const LEARNT: f64 = 2.0 / 3.0;
 
 /// Diagnoses a case with runs of its simulator that were made before, and makes none. What effects act in a
 /// run follows from its parameters. The runs that would tell more are those of
@@ -46,36 +43,48 @@ pub fn diagnose_made(
     let (scatter, repeats) = scatter(case, &runs)?;
     let start = (Vec::new(), scatter);
     let mut simulation = Simulation::new(case, runs, start, options.seed, stop);
-    for ((_, effects), keys) in &by_effects {
-        let kept = keys.iter().filter_map(|key| simulation.runs.kept(effects, key).transpose());
-        let kept = kept.collect::<Result<Vec<_>, _>>()?;
-        let (first, rest) = kept.split_at((LEARNT * kept.len() as f64).ceil() as usize);
-        for part in [first, rest] {
-            simulation.emulator.learn(effects, part, None);
+    let learn = |simulation: &mut Simulation<'_>, focuses: &BTreeMap<Vec<usize>, Focus>| {
+        for ((_, effects), keys) in &by_effects {
+            let kept = keys.iter().filter_map(|key| simulation.runs.kept(effects, key).transpose());
+            let mut kept = kept.collect::<Result<Vec<_>, _>>()?;
+            if let Some(focus) = focuses.get(effects) {
+                let (first, held) = focus.parted(&space, effects, kept);
+                simulation.emulator.learn(effects, &first, None);
+                kept = held;
+            }
+            simulation.emulator.learn(effects, &kept, focuses.get(effects).cloned());
         }
-    }
+        Ok::<_, OverrideError>(())
+    };
+    learn(&mut simulation, &BTreeMap::new())?;
     let singles = (0..space.effects()).map(|effect| vec![effect]);
     let pairs = (0..space.effects())
         .flat_map(|first| (first + 1..space.effects()).map(move |second| vec![first, second]));
     let all: Vec<Vec<usize>> = std::iter::once(Vec::new()).chain(singles).chain(pairs).collect();
-    // where posteriors are says which runs are near them
-    for state in simulation.inferred(all.clone())? {
+    // where posteriors are says which runs tell the error there
+    let states = simulation.inferred(all.clone())?.into_iter();
+    let focuses = states.map(|state| {
         let focus = Focus::of(&space, &state.effects, &state.draws, &state.weights);
-        if simulation.emulator.correction(&state.effects).is_some() {
-            simulation.emulator.learn(&state.effects, &[], Some(focus));
-        }
-    }
-    simulation.inferred(all)?;
+        (state.effects, focus)
+    });
+    let focuses = focuses.collect();
+    simulation.forget();
+    learn(&mut simulation, &focuses)?;
+    let states = simulation.inferred(all)?;
     simulation.move_linear()?;
-    let states = simulation.weighed(WHILE_RUN)?;
+    let weighed = simulation.weighed(WHILE_RUN)?;
     if stop.load(Ordering::Relaxed) {
         return Ok(None);
     }
-    let errors = states.into_iter().map(|state| {
-        let error = simulation.emulator.unseen(&state.effects).map(UnseenError::norm);
-        (state, error)
-    });
-    let (ending, next) = Plan::of_made(&space, count, errors.collect(), options.seed);
+    let error = |state: &State| simulation.emulator.unseen(&state.effects).map(UnseenError::norm);
+    // single effects are to be known at their own best points before any is left out
+    let singles = states.into_iter().filter(|state| state.effects.len() < 2);
+    let singles = singles.filter(|of| !weighed.iter().any(|other| other.effects == of.effects));
+    let singles: Vec<State> = singles.collect();
+    let found = |states: Vec<State>| -> Vec<(State, Option<f64>)> {
+        states.into_iter().map(|state| (state.clone(), error(&state))).collect()
+    };
+    let (ending, next) = Plan::of_made(&space, count, found(weighed), found(singles), options.seed);
     let more = next
         .iter()
         .flat_map(|batch| batch.scores.iter().map(|scores| space.values(&batch.effects, scores)));

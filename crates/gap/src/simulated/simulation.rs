@@ -63,6 +63,13 @@ impl<'c> Simulation<'c> {
         Self { case, runs, emulator, linear_at: None, known: Vec::new(), seed, stop }
     }
 
+    /// Forgets what was learnt from runs.
+    pub(super) fn forget(&mut self) {
+        let runs = &self.runs;
+        let scatter = self.emulator.scatter().cloned();
+        self.emulator = Emulator::new(runs.space.clone(), runs.units.len()).with_scatter(scatter);
+    }
+
     /// The case with the emulator as it is.
     pub(super) fn emulated(&self) -> Result<Case, OverrideError> {
         if self.emulator.correction(&[]).is_none() {
