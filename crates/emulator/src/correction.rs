@@ -4,6 +4,7 @@ use gumption_engine::linalg::add_multiple;
 
 use crate::axis::Coordinate;
 use crate::focus::Focus;
+use crate::joint_sum::JointSum;
 use crate::layer::{Layer, Reach};
 use crate::prediction::Prediction;
 use crate::scatter::Scatter;
@@ -46,10 +47,26 @@ impl Correction {
 
     /// The layers that serve at a point, with their shares.
     pub(crate) fn serving(&self, point: &[Coordinate]) -> impl Iterator<Item = (f64, &Layer)> {
-        let near = self.near.as_ref().map_or(0.0, |near| near.share(point).0);
-        let layers = [(1.0 - near, Some(&self.everywhere)), (near, self.near.as_ref())];
+        let layers = self.shares(point).into_iter().zip([Some(&self.everywhere), self.near()]);
         let serves = |(share, layer): (f64, Option<_>)| Some((share, layer?));
-        layers.into_iter().filter(|(share, _)| *share > 0.0).filter_map(serves)
+        layers.filter(|(share, _)| *share > 0.0).filter_map(serves)
+    }
+
+    /// The shares of the layer that knows all of the prior and of the local one.
+    fn shares(&self, point: &[Coordinate]) -> [f64; 2] {
+        let near = self.near.as_ref().map_or(0.0, |near| near.share(point).0);
+        [1.0 - near, near]
+    }
+
+    /// Adds the corrections at points to a sum, with their factors.
+    pub(crate) fn add_jointly<'v>(&'v self, points: &[Vec<Coordinate>], sum: &mut JointSum<'v>) {
+        let shares: Vec<[f64; 2]> = points.iter().map(|point| self.shares(point)).collect();
+        for (which, layer) in [Some(&self.everywhere), self.near()].into_iter().enumerate() {
+            let shares: Vec<f64> = shares.iter().map(|shares| shares[which]).collect();
+            if let Some(layer) = layer.filter(|_| shares.iter().any(|share| *share > 0.0)) {
+                layer.add_jointly(points, &shares, sum);
+            }
+        }
     }
 
     /// Adds the corrections at a point to values of all rows.

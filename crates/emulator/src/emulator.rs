@@ -7,6 +7,7 @@ use gumption_engine::linalg::add_multiple;
 use crate::axis::Coordinate;
 use crate::correction::Correction;
 use crate::focus::Focus;
+use crate::joint_sum::JointSum;
 use crate::layer::{Layer, Reach};
 use crate::prediction::Prediction;
 use crate::scatter::Scatter;
@@ -279,6 +280,19 @@ impl Emulator {
         let mut values = vec![0.0; self.rows];
         self.add_values(effects, point, true, &mut values);
         values
+    }
+
+    /// The same at many points, to the bit.
+    pub fn values_at(&self, effects: &[usize], points: &[Vec<Coordinate>]) -> Vec<Vec<f64>> {
+        let mut sum = JointSum::new(points.len());
+        for (places, term) in self.terms(effects, true) {
+            let own = |point: &Vec<Coordinate>| -> Vec<Coordinate> {
+                places.iter().map(|&place| point[place]).collect()
+            };
+            let own: Vec<Vec<Coordinate>> = points.iter().map(own).collect();
+            term.add_jointly(&own, &mut sum);
+        }
+        sum.values(self.rows)
     }
 
     /// The outputs of all rows at a point of a hypothesis, with gradient and standard deviations.

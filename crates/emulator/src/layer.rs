@@ -5,6 +5,7 @@ use gumption_engine::linalg::add_multiple;
 use crate::axis::Coordinate;
 use crate::focus::Focus;
 use crate::frame::Frame;
+use crate::joint_sum::JointSum;
 use crate::lengths::{ValueScatter, likeliest_lengths, scattered_lengths};
 use crate::prediction::Prediction;
 use crate::process::GaussianProcess;
@@ -192,6 +193,27 @@ impl Layer {
         let coefficients = self.processes.iter().flat_map(|process| process.values(&at));
         for (coefficient, vector) in coefficients.zip(&self.vectors) {
             add_multiple(values, share * coefficient, vector);
+        }
+    }
+
+    /// Adds shares of the corrections at points to a sum.
+    pub(crate) fn add_jointly<'v>(
+        &'v self,
+        points: &[Vec<Coordinate>],
+        shares: &[f64],
+        sum: &mut JointSum<'v>,
+    ) {
+        let first = sum.len();
+        let vectors = self.mean.iter().chain(&self.vectors);
+        vectors.for_each(|vector| sum.push(vector));
+        let serving = points.iter().zip(shares).enumerate().filter(|(_, (_, share))| **share > 0.0);
+        for (place, (point, &share)) in serving {
+            let (_, at) = self.framed(point);
+            let mean = self.mean.iter().map(|_| 1.0);
+            let coefficients = self.processes.iter().flat_map(|process| process.values(&at));
+            for (vector, coefficient) in mean.chain(coefficients).enumerate() {
+                *sum.factor(first + vector, place) = share * coefficient;
+            }
         }
     }
 

@@ -25,6 +25,7 @@ mod emulator;
 mod focus;
 mod frame;
 mod halton;
+mod joint_sum;
 mod layer;
 mod lengths;
 mod lines;

@@ -3,7 +3,7 @@
 use std::collections::BTreeMap;
 use std::sync::Arc;
 
-use gumption_emulator::{Emulator, PosteriorEmulator, Prediction, Space};
+use gumption_emulator::{Coordinate, Emulator, PosteriorEmulator, Prediction, Space};
 use gumption_engine::model::variables;
 use gumption_engine::number::{COLUMN, Column, elementary, median};
 use gumption_engine::task::Row;
@@ -345,20 +345,20 @@ impl<'c> SimulatedOutputs<'c> {
     /// The values of all rows for the first lanes of scores, output after output; then those of other rows that
     /// it was run in.
     pub(crate) fn lanes(&self, roles: &[Role], scores: &[Column], lanes: usize) -> Vec<Vec<f64>> {
-        let of_lane = |lane: usize| {
-            let values = self.values(roles, scores, lane);
-            let point = self.space.at_values(&self.effects, &values);
-            let mut outputs = self.learnt.emulator.values(&self.effects, &point);
+        let point =
+            |lane: usize| self.space.at_values(&self.effects, &self.values(roles, scores, lane));
+        let points: Vec<Vec<Coordinate>> = (0..lanes).map(point).collect();
+        let mut values = self.learnt.emulator.values_at(&self.effects, &points);
+        for (outputs, point) in values.iter_mut().zip(&points) {
             outputs.iter_mut().zip(&self.learnt.units).for_each(|(value, unit)| *value *= unit);
             if let Some(elsewhere) = &self.elsewhere {
-                let there = elsewhere.emulator.values(&self.effects, &point);
+                let there = elsewhere.emulator.values(&self.effects, point);
                 let there = there.unwrap_or_else(|| vec![f64::NAN; elsewhere.units.len()]);
                 outputs
                     .extend(there.iter().zip(&elsewhere.units).map(|(value, unit)| value * unit));
             }
-            outputs
-        };
-        (0..lanes).map(of_lane).collect()
+        }
+        values
     }
 
     /// The program's variables that the simulator gives in a row of the data, by its place among those of the

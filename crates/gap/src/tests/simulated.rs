@@ -430,7 +430,13 @@ fn a_diagnosis_takes_runs_that_were_made_before() {
         let found = diagnose_made(&case, kept.clone(), options, &|_| {}, &NEVER).unwrap().unwrap();
         assert_eq!(found.ending.runs, kept.made().len());
         assert!(found.ending.open.is_empty() || !found.more.is_empty());
-        println!("{:?} {} {:?} {}", found.ending, found.more.len(), found.diagnosis.most_probable.effects, found.diagnosis.most_probable.probability);
+        println!(
+            "{:?} {} {:?} {}",
+            found.ending,
+            found.more.len(),
+            found.diagnosis.most_probable.effects,
+            found.diagnosis.most_probable.probability
+        );
         if found.more.is_empty() {
             assert_eq!(found.diagnosis.most_probable.effects, ["pivot-friction"]);
             assert!(round > 0);
