@@ -144,6 +144,19 @@ impl Evaluator {
         }
     }
 
+    /// Sets the first lanes of a variable.
+    #[inline(always)]
+    pub(crate) fn set_lanes(
+        &self,
+        registers: &mut [Column],
+        variable: usize,
+        values: impl Iterator<Item = f64>,
+    ) {
+        if let Some(Some(register)) = self.registers.get(variable) {
+            registers[*register].0.iter_mut().zip(values).for_each(|(lane, value)| *lane = value);
+        }
+    }
+
     /// The outputs at a point into `out`.
     #[inline(always)]
     pub(crate) fn at(
@@ -363,7 +376,7 @@ impl Kernel for Walk<'_, '_> {
             }
             if let Some((own, outputs)) = &of_simulator {
                 for (variable, values) in own.of_row(data.ids[point.rows[0]], outputs) {
-                    evaluator.set(&mut registers, variable, &values);
+                    evaluator.set_lanes(&mut registers, variable, values);
                 }
             }
             evaluator.at(path, number, &mut registers, &mut sims);

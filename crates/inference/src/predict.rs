@@ -132,7 +132,7 @@ impl Kernel for Walk<'_> {
             }
             if let Some((own, of_lanes)) = &simulated {
                 for (variable, values) in own.of_row(places[row], of_lanes) {
-                    evaluator.set(&mut registers, variable, &values);
+                    evaluator.set_lanes(&mut registers, variable, values);
                 }
             }
             evaluator.at(path, row, &mut registers, &mut sims);

@@ -5,7 +5,7 @@ use std::sync::Arc;
 
 use gumption_emulator::{Coordinate, Emulator, PosteriorEmulator, Prediction, Space};
 use gumption_engine::model::variables;
-use gumption_engine::number::{COLUMN, Column, elementary, median};
+use gumption_engine::number::{Column, elementary, median};
 use gumption_engine::task::Row;
 
 use crate::latent::Role;
@@ -39,7 +39,7 @@ impl Case {
         for (number, row) in case.task.rows.iter_mut().enumerate() {
             let variables = row.estimates();
             let plain = simulator.plain_at(&variables[..simulator.space().inputs()])?;
-            for (place, value) in values_of_row(self, number).into_iter().enumerate() {
+            for (place, value) in values_of_row(self, number).enumerate() {
                 row.conditions[first + place] = plain.values[value];
             }
         }
@@ -187,7 +187,7 @@ impl Case {
         let simulator = self.simulator.as_deref()?;
         let plain = simulator.plain_at(&variables[..simulator.space().inputs()])?;
         let first = self.first_simulated();
-        let values = values_of_row(self, row_of(self, variables));
+        let values: Vec<usize> = values_of_row(self, row_of(self, variables)).collect();
         let mut variables = variables.to_vec();
         for (place, &value) in values.iter().enumerate() {
             variables[first + place] = plain.values.get(value).copied().unwrap_or(f64::NAN);
@@ -218,7 +218,7 @@ impl Case {
         let column = |vector: &[f64], size: f64| -> Vec<f64> {
             let mut column = Vec::with_capacity(ids.len() * outputs.len());
             for (&id, slopes) in ids.iter().zip(&slopes) {
-                let places = values_of_row(self, id);
+                let places: Vec<usize> = values_of_row(self, id).collect();
                 for &output in outputs {
                     let parts = places.iter().zip(&slopes[output]);
                     let part = |(&place, slope): (&usize, &f64)| {
@@ -362,20 +362,17 @@ impl<'c> SimulatedOutputs<'c> {
     }
 
     /// The program's variables that the simulator gives in a row of the data, by its place among those of the
-    /// case, each with its value in every lane of [`SimulatedOutputs::lanes`]; not numbers beyond them.
+    /// case, each with its values in the lanes of [`SimulatedOutputs::lanes`]; not numbers in a row in which it
+    /// was not run.
     pub(crate) fn of_row<'l>(
         &self,
         row: usize,
         lanes: &'l [Vec<f64>],
-    ) -> impl Iterator<Item = (usize, Column)> + use<'l> {
+    ) -> impl Iterator<Item = (usize, impl Iterator<Item = f64> + use<'l>)> + use<'l> {
         let first = self.case.first_simulated();
-        let places = values_of_row(self.case, row);
-        places.into_iter().enumerate().map(move |(output, place)| {
-            let mut column = Column([f64::NAN; COLUMN]);
-            for (lane, values) in lanes.iter().enumerate() {
-                column.0[lane] = values.get(place).copied().unwrap_or(f64::NAN);
-            }
-            (first + output, column)
+        values_of_row(self.case, row).enumerate().map(move |(output, place)| {
+            let value = move |values: &Vec<f64>| values.get(place).copied().unwrap_or(f64::NAN);
+            (first + output, lanes.iter().map(value))
         })
     }
 }
@@ -390,15 +387,15 @@ pub(crate) fn row_of(case: &Case, conditions: &[f64]) -> usize {
 
 /// For each output of a simulator the place of a row's value among those of a run, and after them those
 /// elsewhere; beyond all of them where it was not run at the row.
-fn values_of_row(case: &Case, row: usize) -> Vec<usize> {
+fn values_of_row(case: &Case, row: usize) -> impl Iterator<Item = usize> + use<> {
     let (rows, elsewhere) = (case.task.rows.len(), rows_elsewhere(case));
     let outputs = case.simulated - 1;
-    let place = |output: usize| match row.checked_sub(rows) {
+    let place = move |output: usize| match row.checked_sub(rows) {
         None => output * rows + row,
         Some(row) if row < elsewhere => outputs * rows + output * elsewhere + row,
         Some(_) => usize::MAX,
     };
-    (0..outputs).map(place).collect()
+    (0..outputs).map(place)
 }
 
 /// The number of other rows than those of the data that a simulator was run in.
