@@ -227,6 +227,7 @@ pub(crate) fn diagnosed(
         noise,
         present,
         replication,
+        simulator: None,
         prior_conflicts,
         departure,
         composed,

@@ -54,6 +54,8 @@ pub struct Diagnosis {
     pub present: Vec<PresentEffect>,
     /// Sizes of effects in each group of rows, where the case says which belong together.
     pub replication: Option<ReplicatedEffects>,
+    /// How the sim was run, where it is a simulator.
+    pub simulator: Option<SimulatorReport>,
     /// Effects whose priors the data contradict, most probable first.
     pub prior_conflicts: Vec<PriorConflict>,
     /// What is known of a departure that no candidate makes, by itself or beside some of them, most
@@ -80,6 +82,34 @@ pub struct NamedQuantity {
     pub name: String,
     /// Unit as written; empty for a plain number.
     pub unit: String,
+}
+
+/// How a simulator was run, and how well its outputs are known.
+#[derive(Clone, Debug, PartialEq)]
+pub struct SimulatorReport {
+    /// How many runs were used.
+    pub runs: usize,
+    /// How many of all runs failed.
+    pub failed: usize,
+    /// The error of what is taken for the outputs at the verdict's posterior, on runs that were not known: the
+    /// root mean square of its norm over all rows, in standard uncertainties of the data. `None` where it was
+    /// not run there.
+    pub error: Option<f64>,
+    /// The simulator itself at the verdict; `None` where nothing is named, or that run failed.
+    pub at_verdict: Option<RunAtVerdict>,
+}
+
+/// A run of a simulator at the most probable parameters of the verdict.
+#[derive(Clone, Debug, PartialEq)]
+pub struct RunAtVerdict {
+    /// The parameters of the simulator with their values, each in its unit.
+    pub parameters: Vec<(NamedQuantity, f64)>,
+    /// What is taken for the outputs is off by so much: the norm over all rows, in standard uncertainties of the
+    /// data.
+    pub error: f64,
+    /// The root mean square of what the data depart from the run by, in their standard uncertainties. `None` where
+    /// formulas change the outputs.
+    pub residual: Option<f64>,
 }
 
 /// A candidate effect in words.

@@ -38,9 +38,9 @@ pub use diagnosis::{
     DiagnosisNote, EffectParameter, EstimatedNoise, GapPart, GapShare, GapStrength, GapTest,
     Hypothesis, HypothesisKind, LeftBeside, MostProbable, NamedQuantity, NextMeasurements,
     NoiseEstimate, OutputCorrelation, Predicted, PresentEffect, PriorConflict, ProposalKind,
-    ProposedMeasurement, ReplicatedEffect, ReplicatedEffects, RowGap, SerialCorrelation,
-    SettingError, Shrinkage, Shrunk, StrengthPart, SuspectValue, UncertaintyFactor, UnlistedEffect,
-    ValueGap,
+    ProposedMeasurement, ReplicatedEffect, ReplicatedEffects, RowGap, RunAtVerdict,
+    SerialCorrelation, SettingError, Shrinkage, Shrunk, SimulatorReport, StrengthPart,
+    SuspectValue, UncertaintyFactor, UnlistedEffect, ValueGap,
 };
 pub use gumption_inference::noise::prior_widths::is_whole_turn;
 pub use gumption_inference::scan::GapRegion;

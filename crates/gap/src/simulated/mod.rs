@@ -145,8 +145,7 @@ pub fn diagnose(
     if followed == Followed::Stopped {
         return Ok(None);
     }
-    let ending = plan.ending();
-    let ending = Ending { runs: ending.runs + repeats, ..ending };
+    let ending = Ending { runs: simulation.runs.used(), ..plan.ending() };
     let progress = |share: f64| progress(RUN + (1.0 - RUN) * share);
     simulation.concluded(ending, Vec::new(), repeats, options, &progress).map(Some)
 }

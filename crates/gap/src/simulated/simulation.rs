@@ -3,7 +3,9 @@
 use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
 
-use gumption_emulator::{Emulator, Ending, Plan, Scatter, SimulatorRun, State, Step, UnseenError};
+use gumption_emulator::{
+    Emulator, Ending, Plan, Scatter, SimulatorQuantity, SimulatorRun, State, Step, UnseenError,
+};
 use gumption_inference::noise::prior_widths::OtherPriors;
 use gumption_inference::posterior::{Effort, WeighedHypothesis};
 use gumption_inference::setup::Setup;
@@ -14,7 +16,9 @@ use super::simulator_runs::SimulatorRuns;
 use super::weighed_states::weighed_states;
 use super::{MakeRuns, SimulatorDiagnosis, notes, refused, without_simulated};
 use crate::diagnose::{DiagnosisOptions, diagnosed};
-use crate::diagnosis::DiagnosisNote;
+use crate::diagnosis::{
+    DiagnosisNote, HypothesisKind, MostProbable, NamedQuantity, RunAtVerdict, SimulatorReport,
+};
 use crate::weighed::Weighed;
 use crate::{Candidate, Case, OverrideError};
 
@@ -214,18 +218,67 @@ impl<'c> Simulation<'c> {
         let (mut diagnosis, known) = diagnosed(&emulated, options, progress, Some(self.stop))?;
         without_simulated(&mut diagnosis, self.case.described());
         diagnosis.notes.extend(notes::open(self.case, &ending));
-        let own = &diagnosis.most_probable.effects;
-        let is_named = |of: &&Candidate| own.contains(&of.effect.name);
-        let named = self.case.candidates.iter().filter(is_named);
-        let named: Vec<usize> = named.filter_map(|of| of.simulator).collect();
-        let unseen = self.emulator.unseen(&named).map(UnseenError::norm);
+        let report = self.report(&diagnosis.most_probable, ending.runs);
         let scatter = self.emulator.scatter().cloned();
-        let facts = std::iter::once(notes::runs(ending.runs, unseen))
+        let facts = std::iter::once(notes::runs(report.runs, report.error))
             .chain(notes::scatter(self.case, scatter.as_ref(), repeats))
             .chain(self.runs.failed_note());
         diagnosis.notes.extend(facts.map(|fact| DiagnosisNote { fact }));
+        diagnosis.simulator = Some(report);
         let SimulatorRuns { runs, last, .. } = self.runs;
         let known = Arc::new(known);
         Ok(SimulatorDiagnosis { diagnosis, runs, last, ending, more, scatter, known })
+    }
+
+    /// How the simulator was run for a verdict.
+    fn report(&self, verdict: &MostProbable, runs: usize) -> SimulatorReport {
+        let is_named = |of: &&Candidate| verdict.effects.contains(&of.effect.name);
+        let named: Vec<&Candidate> = self.case.candidates.iter().filter(is_named).collect();
+        let effects: Vec<usize> = named.iter().filter_map(|of| of.simulator).collect();
+        let is_plain = effects.len() == named.len();
+        SimulatorReport {
+            runs,
+            failed: self.runs.runs.made().iter().filter(|run| run.result.is_err()).count(),
+            error: self.emulator.unseen(&effects).map(UnseenError::norm),
+            at_verdict: match verdict.kind {
+                HypothesisKind::Unexplained => None,
+                _ => self.run_at(&effects, is_plain),
+            },
+        }
+    }
+
+    /// The first of the last runs beside what the emulator has there, if it is one of these effects; beside the
+    /// data as well where formulas change nothing.
+    fn run_at(&self, effects: &[usize], is_plain: bool) -> Option<RunAtVerdict> {
+        let run = self.runs.last.first()?;
+        let space = &self.runs.space;
+        if space.acting(&run.parameters) != effects {
+            return None;
+        }
+        let outputs = run.result.as_ref().ok()?.iter().zip(&self.runs.units);
+        let outputs: Vec<f64> = outputs.map(|(value, unit)| value / unit).collect();
+        let unknowns = space.unknowns(effects);
+        let values: Vec<f64> = unknowns.iter().map(|&place| run.parameters[place]).collect();
+        let emulated = self.emulator.values(effects, &space.at_values(effects, &values));
+        // until there are runs, the conditions that they fill hold what was measured
+        let rows = &self.case.task.rows;
+        let first = self.case.described();
+        let measured = (first..first + outputs.len() / rows.len())
+            .flat_map(|place| rows.iter().map(move |row| row.conditions[place]));
+        let measured = measured.zip(&self.runs.units).map(|(value, unit)| value / unit);
+        let square = |a: &[f64], b: &mut dyn Iterator<Item = f64>| -> f64 {
+            a.iter().zip(b).map(|(a, b)| (a - b) * (a - b)).sum()
+        };
+        let residual = (square(&outputs, &mut measured.into_iter()) / outputs.len() as f64).sqrt();
+        let parameters = self.runs.given().parameters.iter().zip(&run.parameters);
+        let named = |of: &SimulatorQuantity| NamedQuantity {
+            name: of.name.clone(),
+            unit: if of.unit == "1" { String::new() } else { of.unit.clone() },
+        };
+        Some(RunAtVerdict {
+            parameters: parameters.map(|(of, &value)| (named(of), value)).collect(),
+            error: square(&outputs, &mut emulated.into_iter()).sqrt(),
+            residual: is_plain.then_some(residual),
+        })
     }
 }

@@ -1,6 +1,6 @@
 //! The runs of a simulator, each made once.
 
-use std::collections::HashMap;
+use std::collections::{HashMap, HashSet};
 use std::sync::Arc;
 
 use gumption_emulator::{Batch, Run, RunHash, RunKey, Runs, SimulatorCase, SimulatorRun, Space};
@@ -21,6 +21,8 @@ pub(super) struct SimulatorRuns {
     pub(super) runs: Runs,
     /// Those of the first batch that was asked for last.
     pub(super) last: Vec<Run>,
+    /// All that were asked for.
+    used: HashSet<(RunHash, usize)>,
     /// How often each set of parameters was asked for, of a simulator whose outputs scatter: each time is
     /// another run.
     asked: Option<HashMap<RunHash, usize>>,
@@ -57,6 +59,7 @@ impl SimulatorRuns {
             units,
             runs: kept,
             last: Vec::new(),
+            used: HashSet::new(),
             asked: simulator.is_noisy().then(HashMap::new),
         })
     }
@@ -134,6 +137,7 @@ impl SimulatorRuns {
     ) -> Result<(), OverrideError> {
         let mut new: Vec<ParameterSet> = Vec::new();
         for key in keys {
+            self.used.insert((RunHash::of(&key.parameters), key.repetition));
             let is_same = |set: &ParameterSet| {
                 set.values == key.parameters && set.repetition == key.repetition
             };
@@ -179,6 +183,16 @@ impl SimulatorRuns {
         let scores = self.space.scores(effects, &own);
         let outputs = self.outputs(key)?;
         Ok(outputs.map(|outputs| SimulatorRun { scores, outputs }))
+    }
+
+    /// What it is run with.
+    pub(super) fn given(&self) -> &SimulatorCase {
+        &self.given
+    }
+
+    /// How many different runs were asked for.
+    pub(super) fn used(&self) -> usize {
+        self.used.len()
     }
 
     /// Values of all parameters for a message.

@@ -43,9 +43,12 @@ pub fn json(diagnosis: &Diagnosis) -> String {
         ),
         ("present", present(diagnosis)),
         ("replication", replication(diagnosis)),
+    ];
+    entries.extend(simulator(diagnosis).map(|simulator| ("simulator", simulator)));
+    entries.extend([
         ("prior_conflicts", list(diagnosis.prior_conflicts.iter().map(prior_conflict))),
         ("hypotheses", list(diagnosis.hypotheses.iter().map(hypothesis))),
-    ];
+    ]);
     if !diagnosis.departure.is_empty() {
         entries.push(("departure", departure::departure(diagnosis)));
         entries.push(("composed", composed::composed(diagnosis)));
@@ -144,6 +147,26 @@ fn present(diagnosis: &Diagnosis) -> Value {
 }
 
 /// Sizes of effects by group of rows.
+/// How a simulator was run; `None` of another sim.
+fn simulator(diagnosis: &Diagnosis) -> Option<Value> {
+    let simulator = diagnosis.simulator.as_ref()?;
+    let at_verdict = simulator.at_verdict.as_ref().map(|run| {
+        let parameters = run.parameters.iter();
+        let parameters = parameters.map(|(named, value)| (named.name.as_str(), *value));
+        json!({
+            "parameters": object(parameters),
+            "error": run.error,
+            "rms_residual": run.residual,
+        })
+    });
+    Some(json!({
+        "runs": simulator.runs,
+        "failed": simulator.failed,
+        "error": simulator.error,
+        "at_verdict": at_verdict,
+    }))
+}
+
 fn replication(diagnosis: &Diagnosis) -> Value {
     let Some(replication) = &diagnosis.replication else { return Value::Null };
     let of = |effect: &ReplicatedEffect| {

@@ -128,6 +128,13 @@ fn effect(page: &mut Document, diagnosis: &Diagnosis) {
         page.section("Parameters of the verdict");
         page.table(sheet);
     }
+    if let Some((said, sheet)) =
+        words::run_at_verdict(diagnosis).zip(sheets::run_at_verdict(diagnosis))
+    {
+        page.section("The simulator at the verdict");
+        page.text(said);
+        page.table(sheet);
+    }
     if let Some(sheet) = sheets::candidates(diagnosis) {
         page.section("What was looked for");
         page.table(sheet);

@@ -180,6 +180,18 @@ pub(super) fn parameters(diagnosis: &Diagnosis) -> Option<Sheet> {
     Some(sheet)
 }
 
+/// What the simulator was run with at the verdict, where it was.
+pub(super) fn run_at_verdict(diagnosis: &Diagnosis) -> Option<Sheet> {
+    let run = diagnosis.simulator.as_ref()?.at_verdict.as_ref()?;
+    let parameters = || run.parameters.iter();
+    let mut sheet = Sheet::default();
+    sheet.text("parameter", parameters().map(|(named, _)| plain(&named.name)));
+    let unit = |named: &NamedQuantity| words::unit(&named.unit).unwrap_or_default();
+    sheet.text("unit", parameters().map(|(named, _)| unit(named)));
+    sheet.numbers("value", parameters().map(|(_, value)| significant(*value, 6)));
+    Some(sheet)
+}
+
 /// The effects that were looked for; `None` where there were none.
 pub(super) fn candidates(diagnosis: &Diagnosis) -> Option<Sheet> {
     let candidates = &diagnosis.candidates;

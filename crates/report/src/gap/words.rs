@@ -660,9 +660,31 @@ fn without_range(diagnosis: &Diagnosis) -> Option<String> {
     ))
 }
 
+/// What a run of the simulator at the verdict gave, where there is one.
+pub(super) fn run_at_verdict(diagnosis: &Diagnosis) -> Option<String> {
+    let simulator = diagnosis.simulator.as_ref()?;
+    let run = simulator.at_verdict.as_ref()?;
+    let error = significant(run.error, 2);
+    let residual = run.residual.map(|residual| {
+        let residual = significant(residual, 3);
+        format!(" The data depart from it by {residual} standard uncertainties (root mean square).")
+    });
+    Some(format!(
+        "The simulator itself was run with these parameters.{} What the {} runs tell of its outputs is off \
+         by {error} standard uncertainties there, the norm over all rows.",
+        residual.unwrap_or_default(),
+        simulator.runs
+    ))
+}
+
 /// What to measure next, in sentences; the table of proposals says the rest.
 pub(super) fn next(diagnosis: &Diagnosis) -> Vec<String> {
     let next = &diagnosis.next;
+    if diagnosis.simulator.is_some() {
+        let rows = "The rows of a simulator belong together, so that no single one is proposed: measure \
+                    another motion, or this one again.";
+        return vec![rows.to_owned()];
+    }
     let mut said = Vec::new();
     let without_range = without_range(diagnosis);
     for group in &next.equivalent {

@@ -457,10 +457,8 @@ const GAP: Sentences = &[
     ("emulator.plain-not-run", "Without an effect the simulator was never run at the inputs that the data \
         tell, so that its probability rests on runs elsewhere. It takes about {runs} more runs"),
     ("simulator", "The simulator was run {runs} times. At what is reported what is taken for its outputs is off \
-        by about {error} standard uncertainties of the data, the norm over all rows. Its rows belong together, so \
-        that no single one is proposed as a measurement"),
-    ("simulator.runs", "The simulator was run {runs} times. Its rows belong together, so that no single one is \
-        proposed as a measurement"),
+        by about {error} standard uncertainties of the data, the norm over all rows"),
+    ("simulator.runs", "The simulator was run {runs} times"),
     ("simulator.scatter", "From run to run with the same parameters {name} of the simulator scatters by \
         {deviation} standard uncertainties of the data, as {repeats} runs at the start show. The scatter was taken \
         as independent from row to row and the same for all parameters. The data are compared with the mean of the \

@@ -504,10 +504,8 @@ const GAP: Sentences = &[
     ("emulator.plain-not-run", "Ohne Effekt lief der Simulator nie bei den Eingangsgrößen, die aus den Daten \
         folgen, so dass die Wahrscheinlichkeit auf Läufen anderswo beruht. Es braucht etwa {runs} weitere Läufe"),
     ("simulator", "Der Simulator lief {runs}-mal. Bei dem, was angegeben wird, weicht das, was für seine \
-        Ausgaben genommen wird, um etwa {error} Standardunsicherheiten der Daten ab, die Norm über alle Zeilen. \
-        Seine Zeilen gehören zusammen, so dass keine einzelne als Messung vorgeschlagen wird"),
-    ("simulator.runs", "Der Simulator lief {runs}-mal. Seine Zeilen gehören zusammen, so dass keine einzelne als \
-        Messung vorgeschlagen wird"),
+        Ausgaben genommen wird, um etwa {error} Standardunsicherheiten der Daten ab, die Norm über alle Zeilen"),
+    ("simulator.runs", "Der Simulator lief {runs}-mal"),
     ("simulator.scatter", "Von Lauf zu Lauf streut {name} des Simulators bei gleichen Parametern um {deviation} \
         Standardunsicherheiten der Daten, wie {repeats} Läufe am Anfang zeigen. Die Streuung wurde als unabhängig \
         von Zeile zu Zeile und als gleich für alle Parameter genommen. Verglichen wird mit dem Mittel des \

@@ -249,6 +249,7 @@ fn diagnosis() -> Diagnosis {
             probability: 0.987_777_86,
             parameters: vec![low_pass()],
         }],
+        simulator: None,
         replication: Some(ReplicatedEffects {
             condition: named("device", ""),
             groups: vec![1.0, 2.0],

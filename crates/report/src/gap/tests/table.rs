@@ -2,6 +2,7 @@
 
 use super::super::table;
 use super::*;
+use gumption_gap::{RunAtVerdict, SimulatorReport};
 
 fn page(diagnosis: &Diagnosis) -> String {
     let page = table(diagnosis, &provenance());
@@ -223,4 +224,36 @@ fn copied_rows_stand_beside_the_verdict() {
     let page = page(&copied);
     assert_eq!(page.matches("Row 8 has the conditions and").count(), 1);
     assert!(page.find("Row 8 has").unwrap() < page.find("The sim").unwrap(), "{page}");
+}
+
+/// The run at the verdict stands on the page and in JSON, and no row is proposed.
+#[test]
+fn a_simulator_is_shown_at_the_verdict() {
+    let mut diagnosis = diagnosis();
+    diagnosis.simulator = Some(SimulatorReport {
+        runs: 139,
+        failed: 2,
+        error: Some(0.071),
+        at_verdict: Some(RunAtVerdict {
+            parameters: vec![(named("length", "m"), 0.500_123_4)],
+            error: 0.034,
+            residual: Some(0.958),
+        }),
+    });
+    let page = page(&diagnosis);
+    let page = page.split_whitespace().collect::<Vec<_>>().join(" ");
+    for said in [
+        "The data depart from it by 0.958 standard uncertainties (root mean square).",
+        "What the 139 runs tell of its outputs is off by 0.034 standard uncertainties there",
+        "length m 0.500123",
+        "The rows of a simulator belong together, so that no single one is proposed",
+    ] {
+        assert!(page.contains(said), "{said}\n{page}");
+    }
+    let answer = json(&diagnosis);
+    let expected = serde_json::json!({
+        "runs": 139, "failed": 2, "error": 0.071,
+        "at_verdict": {"parameters": {"length": 0.500_123_4}, "error": 0.034, "rms_residual": 0.958},
+    });
+    assert_eq!(answer["simulator"], expected);
 }
