@@ -11,21 +11,13 @@ use crate::joint_sum::JointSum;
 use crate::layer::{Layer, Reach};
 use crate::prediction::Prediction;
 use crate::scatter::Scatter;
+use crate::simulator_run::SimulatorRun;
 use crate::singular::SingularVectors;
 use crate::space::Space;
 use crate::unseen::UnseenError;
 
 /// Runs with outputs beyond this, in u, tell nothing of where the data are.
 const FARTHEST: f64 = 1e5;
-
-/// A run at the scores of a hypothesis' unknowns.
-#[derive(Clone, Debug, PartialEq)]
-pub struct SimulatorRun {
-    /// The scores.
-    pub scores: Vec<f64>,
-    /// The outputs of all rows, in u.
-    pub outputs: Vec<f64>,
-}
 
 /// What came of learning from runs.
 #[derive(Clone, Debug, Default, PartialEq)]

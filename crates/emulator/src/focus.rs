@@ -4,8 +4,7 @@ use gumption_engine::linalg::dot;
 use gumption_engine::linalg::packed;
 use gumption_engine::number::smallest_first;
 
-use crate::emulator::SimulatorRun;
-use crate::layer::nearest_count;
+use crate::simulator_run::SimulatorRun;
 use crate::space::Space;
 
 /// The variance that is added along each scaled coordinate: a posterior of no width is one of about 0.01
@@ -14,6 +13,17 @@ const LEAST_VARIANCE: f64 = 2e-5;
 
 /// A posterior is narrow where the standard deviations of all normal scores of its effects are below this.
 const NARROW: f64 = 0.3;
+
+/// A local layer learns from so many runs for each unknown.
+const NEAREST: usize = 6;
+
+/// And from so many at least.
+const LEAST_NEAREST: usize = 20;
+
+/// How many runs a local layer of so many unknowns learns from.
+pub(crate) fn nearest_count(unknowns: usize) -> usize {
+    (NEAREST * unknowns).max(LEAST_NEAREST)
+}
 
 /// The place and the scale of a posterior.
 #[derive(Clone, Debug, PartialEq)]

@@ -3,7 +3,7 @@
 use gumption_engine::linalg::add_multiple;
 
 use crate::axis::Coordinate;
-use crate::focus::Focus;
+use crate::focus::{Focus, nearest_count};
 use crate::frame::Frame;
 use crate::joint_sum::JointSum;
 use crate::lengths::{ValueScatter, likeliest_lengths, scattered_lengths};
@@ -19,17 +19,6 @@ const LEFT: f64 = 0.1;
 
 /// Coefficients whose lengths are looked for; those of the last one serve the rest.
 const WITH_LENGTHS: usize = 3;
-
-/// A local layer learns from so many runs for each unknown.
-const NEAREST: usize = 6;
-
-/// And from so many at least.
-const LEAST_NEAREST: usize = 20;
-
-/// How many runs a local layer of so many unknowns learns from.
-pub(crate) fn nearest_count(unknowns: usize) -> usize {
-    (NEAREST * unknowns).max(LEAST_NEAREST)
-}
 
 /// What a layer is to know.
 #[derive(Clone, Debug)]

@@ -3,11 +3,11 @@
 use std::collections::BTreeMap;
 
 use crate::axis::Coordinate;
-use crate::emulator::SimulatorRun;
 use crate::focus::Focus;
 use crate::layer::{Layer, Reach};
 use crate::prediction::Prediction;
 use crate::scatter::Scatter;
+use crate::simulator_run::SimulatorRun;
 use crate::space::Space;
 
 /// What the outputs of all rows do within the posteriors of hypotheses: each hypothesis has one layer, which

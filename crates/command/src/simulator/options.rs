@@ -68,6 +68,9 @@ impl SimulatorOptions {
         seed: u64,
         file: Destination,
     ) -> Result<(), Failure> {
+        if case.simulator.is_none() {
+            return Err(self.without_simulator());
+        }
         let runs = simulated::design(case, self.budget(), seed);
         let runs = runs.map_err(|error| Failure::Argument(error.to_string()))?;
         let sets: Vec<Vec<f64>> = runs.into_iter().map(|run| run.parameters).collect();
