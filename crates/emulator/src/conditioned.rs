@@ -3,7 +3,6 @@
 use gumption_engine::linalg::packed::{self, triangle};
 use gumption_engine::linalg::{add_multiple, dot};
 
-use crate::lengths::ValueScatter;
 use crate::matern::{correlation, inverse_squares};
 use crate::trend::{Trend, functions};
 
@@ -15,6 +14,15 @@ const RIDGE: f64 = 1e-12;
 
 /// The least variance of a residual that is taken for one.
 const LEAST_VARIANCE: f64 = 1e-30;
+
+/// How values scatter about a function.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct ValueScatter {
+    /// The variance of a value, above 0.
+    pub variance: f64,
+    /// So many of the first values scatter; the others are exact.
+    pub count: usize,
+}
 
 /// Points and lengths made ready for values at them.
 #[derive(Clone, Debug, PartialEq)]

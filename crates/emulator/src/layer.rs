@@ -3,10 +3,11 @@
 use gumption_engine::linalg::add_multiple;
 
 use crate::axis::Coordinate;
+use crate::conditioned::ValueScatter;
 use crate::focus::{Focus, nearest_count};
 use crate::frame::Frame;
 use crate::joint_sum::JointSum;
-use crate::lengths::{ValueScatter, likeliest_lengths, scattered_lengths};
+use crate::lengths::{likeliest_lengths, scattered_lengths};
 use crate::prediction::Prediction;
 use crate::process::GaussianProcess;
 use crate::scatter::Scatter;

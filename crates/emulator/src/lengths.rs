@@ -4,7 +4,7 @@ use gumption_engine::linalg::dot;
 use gumption_engine::linalg::packed::triangle;
 use gumption_engine::number::elementary;
 
-use crate::conditioned::{Conditioned, Nugget};
+use crate::conditioned::{Conditioned, Nugget, ValueScatter};
 use crate::matern::correlation;
 use crate::minimum::minimum;
 use crate::trend::Trend;
@@ -39,15 +39,6 @@ pub fn likeliest_lengths(
     minimum(start.unwrap_or(&usual), LIMIT, STEPS, |ln_lengths| {
         against(points, values, trend, ln_lengths, None)
     })
-}
-
-/// How values scatter about a function.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct ValueScatter {
-    /// The variance of a value, above 0.
-    pub variance: f64,
-    /// So many of the first values scatter; the others are exact.
-    pub count: usize,
 }
 
 /// At which lengths a function varies whose values scatter, and how much.

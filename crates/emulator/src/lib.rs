@@ -48,12 +48,13 @@ mod uniforms;
 mod unseen;
 
 pub use axis::Coordinate;
+pub use conditioned::ValueScatter;
 pub use correction::Correction;
 pub use emulator::{Emulator, Learnt};
 pub use focus::Focus;
 pub use halton::space_filling_scores;
 pub use layer::{Layer, Reach};
-pub use lengths::{ScatteredLengths, ValueScatter, likeliest_lengths, scattered_lengths};
+pub use lengths::{ScatteredLengths, likeliest_lengths, scattered_lengths};
 pub use lines::DamagedLine;
 pub use plan::{GOAL, Plan};
 pub use posterior_emulator::PosteriorEmulator;

@@ -2,8 +2,8 @@
 
 use gumption_engine::linalg::dot;
 
-use crate::conditioned::{Conditioned, Nugget, Target};
-use crate::lengths::{ScatteredLengths, ValueScatter};
+use crate::conditioned::{Conditioned, Nugget, Target, ValueScatter};
+use crate::lengths::ScatteredLengths;
 use crate::matern::{correlation, correlations};
 use crate::trend::Trend;
 

@@ -23,6 +23,7 @@ mod history;
 pub mod integral;
 pub mod latent;
 pub mod likelihood;
+pub mod linear_point;
 pub mod logarithm;
 pub mod metric;
 pub mod model;
@@ -45,7 +46,7 @@ pub use case::{Candidate, Case, ObservedOutput, Prior};
 pub use history::{History, HistoryKind};
 pub use model::{Effect, ModelForm, OverridableModel, OverrideError};
 pub use replication::{MOST_GROUPS, OwnSizes, Replication};
-pub use simulator::{SimulatorModel, simulator_conditions};
+pub use simulator::{LinearAt, SimulatorModel, simulator_conditions};
 
 #[cfg(test)]
 mod tests;

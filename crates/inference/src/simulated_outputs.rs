@@ -9,8 +9,7 @@ use gumption_engine::number::{Column, elementary, median};
 use gumption_engine::task::Row;
 
 use crate::latent::Role;
-use crate::simulator::{Elsewhere, Learnt, SimulatorModel};
-use crate::tangent::LinearAt;
+use crate::simulator::{Elsewhere, Learnt, LinearAt, SimulatorModel};
 use crate::{Candidate, Case};
 
 impl Case {

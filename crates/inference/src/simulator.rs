@@ -12,8 +12,6 @@ use gumption_emulator::{Coordinate, Emulator, PosteriorEmulator, Prediction, Spa
 use gumption_engine::model::Quantity;
 use gumption_units::Unit;
 
-use crate::tangent::LinearAt;
-
 /// A simulator in the place of a model's formulas.
 #[derive(Debug)]
 pub struct SimulatorModel {
@@ -25,6 +23,15 @@ pub struct SimulatorModel {
     pub(crate) linear_at: Option<LinearAt>,
     /// What the emulators say of the plain simulator at the inputs that were asked for last.
     plain: Mutex<VecDeque<(Vec<u64>, Arc<Prediction>)>>,
+}
+
+/// Inputs at which a model is linear.
+#[derive(Clone, Debug, PartialEq)]
+pub struct LinearAt {
+    /// The values of all inputs.
+    pub(crate) values: Vec<f64>,
+    /// The places of those that are unknown quantities, each with its score.
+    pub(crate) scores: Vec<(usize, f64)>,
 }
 
 /// So many inputs are kept with what the plain simulator gives.

@@ -8,20 +8,8 @@
 use gumption_engine::task::Row;
 
 use crate::Case;
-use crate::data::by_rows;
-use crate::discrepancy::Discrepancy;
-use crate::integral::search;
-use crate::latent::{Map, Role};
-use crate::setup::Setup;
-
-/// Inputs at which a model is linear.
-#[derive(Clone, Debug, PartialEq)]
-pub struct LinearAt {
-    /// The values of all inputs.
-    values: Vec<f64>,
-    /// The places of those that are unknown quantities, each with its score.
-    scores: Vec<(usize, f64)>,
-}
+use crate::latent::Role;
+use crate::simulator::LinearAt;
 
 /// The outputs of a model in a row as linear functions of the inputs.
 #[derive(Clone, Debug)]
@@ -86,45 +74,6 @@ impl Case {
         };
         roles.iter().map(score).collect()
     }
-}
-
-/// Inputs further than this from their estimates, as scores, are there because nothing explains the data.
-const FARTHEST: f64 = 4.0;
-
-/// The simulator's inputs that are most probable beside the heaviest departure without effects, where they are
-/// further than `least` from those at which it is linear now, as scores, and not far out in their priors; `None`
-/// elsewhere. `known` are points to
-/// look from, scores of the unknown quantities without effects.
-pub fn beside_departure(setup: &Setup<'_>, known: &[Vec<f64>], least: f64) -> Option<LinearAt> {
-    let simulator = setup.case.simulator.as_ref()?;
-    let discrepancy = Discrepancy::new(setup);
-    let residuals = by_rows(&setup.data.linear_residuals());
-    let departure = discrepancy.evidence(setup, &residuals, f64::NEG_INFINITY);
-    let with = setup.with_functions(&discrepancy.columns(setup, departure.kinds.first()?));
-    let likelihood = with.likelihood(&[]);
-    let now = setup.case.linear_scores(&likelihood.roles);
-    let mut starts = known.to_vec();
-    starts.push(now.clone());
-    let mode = search::modes(&likelihood, &starts, 1).into_iter().next()?;
-    let inputs = likelihood.roles.iter().enumerate().filter_map(|(place, role)| match role {
-        Role::Variable { place: input, .. } => Some((place, *input, role.map()?)),
-        Role::Noise { .. } | Role::Power { .. } => None,
-    });
-    let inputs: Vec<(usize, usize, &Map)> = inputs.collect();
-    if inputs.iter().all(|(place, ..)| (mode.scores[*place] - now[*place]).abs() <= least) {
-        return None;
-    }
-    if inputs.iter().any(|(place, ..)| mode.scores[*place].abs() > FARTHEST) {
-        return None;
-    }
-    let mixed = likelihood.mixed(&likelihood.columns(std::slice::from_ref(&mode.scores)));
-    let mut values = setup.case.task.rows.first()?.estimates();
-    values.truncate(simulator.space().inputs());
-    for (place, input, map) in &inputs {
-        values[*input] = map.value(mixed[*place].0[0]);
-    }
-    let scores = inputs.iter().map(|(place, input, _)| (*input, mode.scores[*place])).collect();
-    Some(LinearAt { values, scores })
 }
 
 #[cfg(test)]

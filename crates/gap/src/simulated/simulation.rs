@@ -10,7 +10,7 @@ use gumption_inference::noise::prior_widths::OtherPriors;
 use gumption_inference::posterior::{Effort, WeighedHypothesis};
 use gumption_inference::setup::Setup;
 use gumption_inference::simulator_states;
-use gumption_inference::tangent::{self, LinearAt};
+use gumption_inference::{LinearAt, linear_point};
 
 use super::simulator_runs::SimulatorRuns;
 use super::weighed_states::weighed_states;
@@ -153,7 +153,7 @@ impl<'c> Simulation<'c> {
             let plain = self.known.iter().filter(|of| of.effects.is_empty());
             let modes = plain.flat_map(|of| &of.evidence.modes).map(|mode| mode.scores.clone());
             let modes: Vec<Vec<f64>> = modes.collect();
-            let moved = tangent::beside_departure(&Setup::new(&case), &modes, MOVED);
+            let moved = linear_point::beside_departure(&Setup::new(&case), &modes, MOVED);
             if moved.is_none() {
                 break;
             }

@@ -13,7 +13,7 @@ use super::cases::{candidate, case, normal, observed, quantity};
 use crate::latent::Role;
 use crate::predict;
 use crate::setup::Setup;
-use crate::tangent::LinearAt;
+use crate::simulator::LinearAt;
 use crate::{Case, ModelForm, SimulatorModel, simulator_conditions};
 
 const ROWS: usize = 12;
