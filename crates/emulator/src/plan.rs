@@ -31,6 +31,9 @@ const PROBABLE: f64 = 0.01;
 /// of an evidence by about e, and a probability p by p (1 - p) e.
 const MOVED: f64 = 0.03;
 
+/// This holds for errors of up to so many u.
+const SMALL: f64 = 2.0;
+
 /// The share of the budget that fills the space before anything is inferred: one third.
 const START: usize = 3;
 
@@ -306,7 +309,8 @@ impl Plan {
         let known = self.weighed.iter().filter(|state| {
             let probability = elementary::exp(state.score);
             let error = self.errors.get(&state.effects).map(|errors| errors.last);
-            let moved = error.map(|error| probability * (1.0 - probability) * error);
+            let small = error.filter(|error| *error <= SMALL);
+            let moved = small.map(|error| probability * (1.0 - probability) * error);
             self.is_known(&state.effects) || moved.is_some_and(|moved| moved < MOVED)
         });
         let known: Vec<Vec<usize>> = known.map(|state| state.effects.clone()).collect();

@@ -79,6 +79,7 @@ impl Case {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::setup::Setup;
     use crate::tests::simulator::emulated;
 
     /// Of a simulator that is its input a, which is 1.00 with a standard uncertainty of 0.05, and linear at 1.04:
