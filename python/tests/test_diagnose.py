@@ -336,6 +336,9 @@ def test_tables_of_other_libraries() -> None:
         ({"inputs": {"rate": normal(0.2, 0.001, "parsec/fortnightly")}}, "fortnightly"),
         ({"effects": {"two": {"a": 1.0, "b": 1.0}}}, "has 2 parameters; say which of them make it absent"),
         ({"effects": {"none": {}}}, "has no parameter, and the simulator can only do what a parameter lets it"),
+        ({"runs": -1}, "`runs` is -1, but must be a whole number from 1 to 1000000"),
+        ({"runs": "many"}, "`runs` is 'many', but must be a whole number"),
+        ({"seed": -1}, "`seed` is -1, but must be a whole number from 0"),
         ({"runs": 10}, "the simulator has to be run [0-9]+ times at least"),
     ],
 )

@@ -366,6 +366,8 @@ class Diagnosis:
         if missing:
             raise ValueError(f"the conditions have no column {', '.join(missing)}")
         table = csv({name: named[name] for name in self._case.conditions})
+        if runs is not None:
+            _check_whole("runs", runs, 1, 1_000_000)
         at = self._simulate.on(executor)
         values, notes = self._rust.predict(at.at, table, runs, at.folder, at.name)
         for note in notes:
@@ -504,6 +506,9 @@ def diagnose(
     >>> found.verdict["effects"]
     ['gain-error']
     """
+    _check_whole("runs", runs, 1, 1_000_000)
+    if seed is not None:
+        _check_whole("seed", seed, 0, 2**64 - 1)
     table = {name: numbers(column) for name, column in columns(data).items()}
     case, held = _case(table, conditions, outputs, uncertainties, inputs, effects)
     if catalogue is not None:
@@ -531,6 +536,12 @@ def diagnose(
     with _bar(progress) as told:
         found = read.diagnose(at, runs, seed, folder, simulate.name, progress=told)
     return Diagnosis(found, read, simulate)
+
+
+def _check_whole(name: str, value: Any, least: int, most: int) -> None:
+    """Checks an argument that is a whole number."""
+    if isinstance(value, bool) or not isinstance(value, (int, np.integer)) or not least <= value <= most:
+        raise ValueError(f"`{name}` is {value!r}, but must be a whole number from {least} to {most}")
 
 
 def _case(
