@@ -230,7 +230,7 @@ impl FitReader<'_, '_> {
     fn points(&mut self) -> Option<(Points, (Unit, Unit), [bool; 2])> {
         let (x, y) = (self.object.required("x"), self.object.required("y"));
         let (x, y) = (x?, y?);
-        let (mut tables, folder, files) = (Tables::default(), self.folder, &mut self.set.files);
+        let (mut tables, folder, files) = (Tables::of([x, y]), self.folder, &mut self.set.files);
         let x = points::read(self.object.log, x, "x", (folder, &mut tables), files);
         let y = points::read(self.object.log, y, "y", (folder, &mut tables), files);
         let (x, y) = (x?, y?);

@@ -23,11 +23,22 @@ pub(super) struct Side {
     pub(super) spread: Spread,
 }
 
-/// The tables of a fit, each read once: both coordinates mostly are columns of one.
-#[derive(Default)]
-pub(super) struct Tables(Vec<(String, Rc<Table>)>);
+/// The tables of a fit, each read once: both coordinates mostly are columns of one. Only the columns that the fit
+/// names need be numbers.
+pub(super) struct Tables<'f> {
+    /// What the fit names.
+    named: Vec<&'f str>,
+    read: Vec<(String, Rc<Table>)>,
+}
 
-impl Tables {
+impl<'f> Tables<'f> {
+    /// Of a fit with these coordinates, none of which was read yet. One that names no column is in that of its
+    /// own name.
+    pub(super) fn of(coordinates: [&'f Member; 2]) -> Self {
+        let named = coordinates.into_iter().flat_map(|member| member.value.texts());
+        Self { named: ["x", "y"].into_iter().chain(named).collect(), read: Vec::new() }
+    }
+
     fn read(
         &mut self,
         log: &Collector,
@@ -36,15 +47,15 @@ impl Tables {
         folder: Folder<'_>,
         files: &mut Vec<(String, Vec<u8>)>,
     ) -> Option<Rc<Table>> {
-        if let Some((_, known)) = self.0.iter().find(|(known, _)| known == name) {
+        if let Some((_, known)) = self.read.iter().find(|(known, _)| known == name) {
             return Some(Rc::clone(known));
         }
-        let (table, bytes) = table::read(log, folder, name, place, None)?;
+        let (table, bytes) = table::read(log, folder, name, place, Some(&self.named))?;
         if files.iter().all(|(known, _)| known != name) {
             files.push((name.to_owned(), bytes));
         }
         let table = Rc::new(table);
-        self.0.push((name.to_owned(), Rc::clone(&table)));
+        self.read.push((name.to_owned(), Rc::clone(&table)));
         Some(table)
     }
 }
@@ -54,7 +65,7 @@ pub(super) fn read(
     log: &Collector,
     member: &Member,
     name: &'static str,
-    (folder, tables): (Folder<'_>, &mut Tables),
+    (folder, tables): (Folder<'_>, &mut Tables<'_>),
     files: &mut Vec<(String, Vec<u8>)>,
 ) -> Option<Side> {
     let what = if name == "x" { "`x` of a fit" } else { "`y` of a fit" };

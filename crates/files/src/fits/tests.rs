@@ -353,3 +353,33 @@ fn units_of_parameters_follow() {
     // a power that is fitted has no unit of its own, and neither has its factor
     assert!(of("b*x^c", r#"{"b": 1.9, "c": -0.3}"#, "1").contains(&"fit-units-not-checked"));
 }
+
+/// A log of a voltmeter with the time and remarks beside the columns that the fit names: what a fit does not name
+/// need not be numbers. The points are on a line.
+#[test]
+fn columns_that_a_fit_does_not_name_may_hold_anything() {
+    let log = "time,U [V],remark,p [bar],u\n\
+               2026-03-01 08:00,1.0,warm,10,0.1\n\
+               2026-03-01 08:05,2.0,,20,0.1\n\
+               2026-03-01 08:10,3.0,door open,30,0.1\n";
+    let held = [("log.csv".to_owned(), log.as_bytes().to_vec())];
+    let text = r#"{
+      "fits": {"cal": {
+        "x": {"file": "log.csv", "column": "U", "unit": "V"},
+        "y": {"file": "log.csv", "column": "p", "unit": "bar", "standard_uncertainty": "u"}}},
+      "inputs": {"U": {"unit": "V", "distribution": "constant", "value": 2.5}},
+      "equations": {"p": "cal(U)"},
+      "outputs": {"p": {"unit": "bar"}},
+      "monte_carlo": {"trials": 0}
+    }"#;
+    let read = |text: &str| {
+        let files = crate::FileReader::default().holding(&held);
+        files.model_text("test", text, Path::new(""), &[])
+    };
+    let task = read(text).unwrap().task;
+    let evaluation = evaluate(&task, &Control::default()).unwrap();
+    // a few roundings
+    near(gum(&evaluation, 0).estimate, 25.0, 1e-13);
+    let wrong = read(&text.replace("\"column\": \"p\"", "\"column\": \"remark\"")).unwrap_err();
+    assert!(wrong.to_string().contains("`remark`"), "{wrong}");
+}
