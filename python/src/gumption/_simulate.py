@@ -17,12 +17,12 @@ from gumption._executors import Work, Workers
 from gumption._frames import columns, numbers
 
 #: What a run gives: all outputs, output after output, or the reason why there are none.
-Result: TypeAlias = "npt.NDArray[np.float64] | str"
+Result: TypeAlias = npt.NDArray[np.float64] | str
 
 #: A simulator and the conditions of all rows, with the names of its parameters and outputs.
-Simulator: TypeAlias = (
-    "tuple[Callable[..., Any], Mapping[str, npt.NDArray[np.float64]], list[str], list[str]]"
-)
+Simulator: TypeAlias = tuple[
+    Callable[..., Any], Mapping[str, npt.NDArray[np.float64]], list[str], list[str]
+]
 
 
 class Simulate:
