@@ -32,10 +32,10 @@ const PARTS: f64 = 1000.0;
 /// A case of the gap diagnosis whose sim is a simulator.
 #[pyclass(frozen, module = "gumption._gumption")]
 #[derive(Debug)]
-pub(crate) struct SimulatedGap(Arc<Read>);
+pub(crate) struct SimulatedGap(Arc<GapCase>);
 
 #[derive(Debug)]
-struct Read {
+struct GapCase {
     file: CaseFile,
     held: Vec<(String, Vec<u8>)>,
     given: SimulatorCase,
@@ -48,7 +48,7 @@ pub(crate) struct SimulatorGap(Arc<Diagnosed>);
 
 #[derive(Debug)]
 struct Diagnosed {
-    read: Arc<Read>,
+    read: Arc<GapCase>,
     found: SimulatorDiagnosis,
     provenance: Provenance,
 }
@@ -117,7 +117,7 @@ impl SimulatedGap {
         let file = read.map_err(|found| failed(py, &Failure::Diagnostics(found)))?;
         let given = simulator_case(&file.case, &file.case.task.rows);
         let given = given.ok_or_else(|| argument(py, "the case has no simulator"))?;
-        Ok(Self(Arc::new(Read { file, held, given })))
+        Ok(Self(Arc::new(GapCase { file, held, given })))
     }
 
     /// The names of the simulator's parameters in their order.
@@ -331,7 +331,7 @@ impl SimulatorGap {
         name: &str,
     ) -> PyResult<(Bound<'py, PyDict>, Vec<String>)> {
         let of = Arc::clone(&self.0);
-        let Read { file, held, .. } = &*of.read;
+        let GapCase { file, held, .. } = &*of.read;
         let mut files = held.clone();
         files.push((ELSEWHERE.to_owned(), table));
         let reader = application().files().holding(&files);
