@@ -84,7 +84,9 @@ impl Gap {
                     self.simulator.write_runs(&file.case, &found.more, first, to)?;
                 }
                 let found = match (found, at) {
-                    (Some(found), Some(at)) => self.predict_simulated(&file, &found, at, &stop)?,
+                    (Some(found), Some(at)) if !found.diagnosis.interrupted => {
+                        self.predict_simulated(&file, &found, at, &stop)?
+                    }
                     (found, _) => found.map(|found| found.diagnosis),
                 };
                 let Some(diagnosis) = found else {
@@ -126,12 +128,8 @@ impl Gap {
         file: &CaseFile,
         simulated: &mut SimulatedCase,
     ) -> Result<Option<SimulatorDiagnosis>, Failure> {
-        let options = gap::DiagnosisOptions::new(self.seed.or(file.case.task.settings.seed));
-        let bar = progress::share(self.answer.quiet);
-        let told = |share: f64| progress::tell(&bar, share);
-        let found = self.threads.install(|| simulated.diagnose(&file.case, options, &told));
-        bar.finish_and_clear();
-        found
+        let options = self.options(file);
+        self.under_progress(|told| simulated.diagnose(&file.case, options, told))
     }
 
     fn predict_simulated(
@@ -154,13 +152,22 @@ impl Gap {
         at: Option<&[Row]>,
         stop: &AtomicBool,
     ) -> Result<Diagnosis, Failure> {
-        let seed = self.seed.or(file.case.task.settings.seed);
+        let options = self.options(file);
+        let diagnosis =
+            self.under_progress(|told| gap::diagnose_until(&file.case, at, options, told, stop));
+        diagnosis.map_err(|error| Failure::System(error.to_string()))
+    }
+
+    fn options(&self, file: &CaseFile) -> gap::DiagnosisOptions {
+        gap::DiagnosisOptions::new(self.seed.or(file.case.task.settings.seed))
+    }
+
+    /// Does some work on the threads that were asked for, which tells the share that is done.
+    fn under_progress<T: Send>(&self, work: impl FnOnce(&(dyn Fn(f64) + Sync)) -> T + Send) -> T {
         let bar = progress::share(self.answer.quiet);
         let told = |share: f64| progress::tell(&bar, share);
-        let options = gap::DiagnosisOptions::new(seed);
-        let diagnose = || gap::diagnose_until(&file.case, at, options, &told, stop);
-        let diagnosis = self.threads.install(diagnose);
+        let done = self.threads.install(|| work(&told));
         bar.finish_and_clear();
-        diagnosis.map_err(|error| Failure::System(error.to_string()))
+        done
     }
 }
