@@ -6,7 +6,9 @@ use std::sync::atomic::{AtomicBool, Ordering};
 use gumption_emulator::{
     Emulator, Ending, Plan, Scatter, SimulatorQuantity, SimulatorRun, State, Step, UnseenError,
 };
+use gumption_inference::noise::over_noises;
 use gumption_inference::noise::prior_widths::OtherPriors;
+use gumption_inference::noise::weighings::weighings;
 use gumption_inference::posterior::{Effort, WeighedHypothesis};
 use gumption_inference::setup::Setup;
 use gumption_inference::simulator_states;
@@ -19,7 +21,6 @@ use crate::diagnose::{DiagnosisOptions, diagnosed};
 use crate::diagnosis::{
     DiagnosisNote, HypothesisKind, MostProbable, NamedQuantity, RunAtVerdict, SimulatorReport,
 };
-use crate::weighed::Weighed;
 use crate::{Candidate, Case, OverrideError};
 
 /// The inputs at which a simulator is linear beside departures are found anew so often at most.
@@ -132,8 +133,8 @@ impl<'c> Simulation<'c> {
         let case = self.emulated()?;
         let others = OtherPriors::of(&case);
         let effort = Effort { stop: Some(self.stop), ..effort };
-        let Weighed { setup, posterior, .. } =
-            Weighed::new(&case, &others, self.seed, effort, &|_| {});
+        let weighings = weighings(&case, &others, self.seed, effort, &|_| {});
+        let (setup, _, posterior) = over_noises::summed(weighings);
         let states = weighed_states(&setup, &posterior, 0.0).into_iter();
         Ok(states.map(|state| self.for_runs(state)).collect())
     }
