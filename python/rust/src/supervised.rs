@@ -1,8 +1,9 @@
 //! Long computations: without the interpreter's lock, on threads of our own, and watched for Ctrl-C.
 
+use std::convert::Infallible;
 use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::sync::atomic::{AtomicBool, AtomicU64, Ordering};
-use std::sync::mpsc::{RecvTimeoutError, channel, sync_channel};
+use std::sync::mpsc::{Receiver, RecvTimeoutError, channel, sync_channel};
 use std::sync::{Arc, Mutex, PoisonError};
 use std::time::Duration;
 
@@ -48,35 +49,14 @@ pub(crate) fn supervised<T: Send + 'static>(
     if rayon::current_thread_index().is_some() {
         return Ok(py.detach(|| work(&watch)));
     }
-    let (give, take) = sync_channel(1);
+    let (give, take) = channel();
     let given = Arc::clone(&watch);
     pool()?.spawn(move || {
+        let done = catch_unwind(AssertUnwindSafe(|| work(&given)));
         // where nobody waits any more, nothing is to be told
-        let _ = give.send(catch_unwind(AssertUnwindSafe(|| work(&given))));
+        let _ = give.send(Message::<Infallible, T>::Done(done));
     });
-    let take = Mutex::new(take);
-    let wait = |time: Duration| {
-        let take = take.lock().unwrap_or_else(PoisonError::into_inner);
-        take.recv_timeout(time)
-    };
-    loop {
-        match py.detach(|| wait(LOOK)) {
-            Ok(Ok(found)) => {
-                tell(progress, &watch)?;
-                return Ok(found);
-            }
-            Ok(Err(_)) | Err(RecvTimeoutError::Disconnected) => {
-                return Err(PyRuntimeError::new_err("an internal error of gumption"));
-            }
-            Err(RecvTimeoutError::Timeout) => {
-                if let Err(raised) = py.check_signals().and_then(|()| tell(progress, &watch)) {
-                    watch.stop.store(true, Ordering::Relaxed);
-                    let _ = py.detach(|| wait(PATIENCE));
-                    return Err(raised);
-                }
-            }
-        }
-    }
+    waited(py, progress, &watch, take, &mut |never| match never {})
 }
 
 /// The same for work that borrows: it is waited for also where an exception is raised, which the flag
@@ -154,32 +134,40 @@ pub(crate) fn supervised_asking<A: Send + 'static, T: Send + 'static>(
         let _ = give.send(Message::Done(catch_unwind(work)));
     });
     started.map_err(|error| PyOSError::new_err(format!("cannot start a thread: {error}")))?;
+    waited(py, progress, &watch, take, answer)
+}
+
+/// Waits for work on other threads, and answers what it asks.
+fn waited<A: Send, T: Send>(
+    py: Python<'_>,
+    progress: Option<&Bound<'_, PyAny>>,
+    watch: &Watch,
+    take: Receiver<Message<A, T>>,
+    answer: &mut dyn FnMut(A) -> PyResult<()>,
+) -> PyResult<T> {
     let take = Mutex::new(take);
     let wait = |time: Duration| {
         let take = take.lock().unwrap_or_else(PoisonError::into_inner);
         take.recv_timeout(time)
     };
-    let stopped = |raised: PyErr| {
-        watch.stop.store(true, Ordering::Relaxed);
-        let _ = py.detach(|| wait(PATIENCE));
-        Err(raised)
-    };
     loop {
         let looked = match py.detach(|| wait(LOOK)) {
-            Ok(Message::Asked(asked)) => answer(asked).and_then(|()| tell(progress, &watch)),
+            Ok(Message::Asked(asked)) => answer(asked).and_then(|()| tell(progress, watch)),
             Ok(Message::Done(Ok(found))) => {
-                tell(progress, &watch)?;
+                tell(progress, watch)?;
                 return Ok(found);
             }
             Ok(Message::Done(Err(_))) | Err(RecvTimeoutError::Disconnected) => {
                 return Err(PyRuntimeError::new_err("an internal error of gumption"));
             }
             Err(RecvTimeoutError::Timeout) => {
-                py.check_signals().and_then(|()| tell(progress, &watch))
+                py.check_signals().and_then(|()| tell(progress, watch))
             }
         };
         if let Err(raised) = looked {
-            return stopped(raised);
+            watch.stop.store(true, Ordering::Relaxed);
+            let _ = py.detach(|| wait(PATIENCE));
+            return Err(raised);
         }
     }
 }
