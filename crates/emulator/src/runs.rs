@@ -130,6 +130,12 @@ impl Runs {
         self.places.get(&key).map(|&place| &self.made[place])
     }
 
+    /// How many runs with these parameters, to the bit, were made.
+    pub fn repetitions(&self, parameters: &[f64]) -> usize {
+        let is_made = |repetition: &usize| self.find_repetition(parameters, *repetition).is_some();
+        (0..).take_while(is_made).count()
+    }
+
     /// Keeps a run. One with an output that is no finite number has failed.
     ///
     /// # Errors
@@ -200,6 +206,7 @@ mod tests {
         let again = Run { repetition: 1, ..run([0.5, 0.0], &[1.0, 3.0]) };
         runs.keep(again.clone()).unwrap();
         assert_eq!(runs.find_repetition(&[0.5, 0.0], 1), Some(&again));
+        assert_eq!([runs.repetitions(&[0.5, 0.0]), runs.repetitions(&[0.4, 0.0])], [2, 0]);
         assert_eq!(runs.find(&[0.5, 0.0]).unwrap().result, Ok(vec![1.0, 2.0]));
         assert_eq!(runs.keep(again).unwrap_err(), RunsError::Twice(vec![0.5, 0.0]));
     }

@@ -187,8 +187,7 @@ impl SimulatedGap {
         let mut runs = Runs::new(given.parameter_names());
         for (parameters, outputs) in parameters.rows().into_iter().zip(outputs.rows()) {
             let parameters = parameters.to_vec();
-            let earlier = runs.made().iter().filter(|run: &&Run| run.parameters == parameters);
-            let repetition = earlier.count();
+            let repetition = runs.repetitions(&parameters);
             let run = Run { parameters, repetition, result: Ok(outputs.to_vec()) };
             runs.keep(run).map_err(|error| argument(py, error.to_string()))?;
         }

@@ -70,8 +70,7 @@ pub fn made(folder: &Path, case: &SimulatorCase) -> Result<MadeRuns, Failure> {
             missing.push(format!("{number}"));
             continue;
         };
-        let earlier = runs.made().iter().filter(|run| run.parameters == parameters);
-        let repetition = earlier.count();
+        let repetition = runs.repetitions(&parameters);
         runs.keep(Run { parameters, repetition, result })
             .map_err(|error| Failure::Argument(format!("`{name}`: run {number}: {error}")))?;
     }

@@ -101,7 +101,7 @@ fn scatter(case: &Case, runs: &SimulatorRuns) -> Result<(Option<Scatter>, usize)
     let mut repeats: Vec<Vec<Vec<f64>>> = Vec::new();
     for run in runs.runs.made().iter().filter(|run| run.repetition == 1) {
         let key = |repetition| RunKey { parameters: run.parameters.clone(), repetition };
-        let made = (0..).take_while(|&repetition| runs.find(&key(repetition)).is_some());
+        let made = 0..runs.runs.repetitions(&run.parameters);
         let succeeded = made.filter_map(|repetition| runs.outputs(&key(repetition)).transpose());
         let succeeded = succeeded.collect::<Result<Vec<_>, _>>()?;
         if let ([first, others @ ..], false) = (&succeeded[..], runs.is_noisy()) {

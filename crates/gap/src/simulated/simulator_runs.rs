@@ -201,7 +201,7 @@ impl SimulatorRuns {
     }
 
     /// A run, if it was made.
-    pub(super) fn find(&self, key: &RunKey) -> Option<&Run> {
+    fn find(&self, key: &RunKey) -> Option<&Run> {
         self.runs.find_repetition(&key.parameters, key.repetition)
     }
 
