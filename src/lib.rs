@@ -392,7 +392,7 @@ pub mod calibration {
 pub mod task {
     pub use gumption_engine::task::{
         ColumnFunction, Coverage, Evidence, MethodChoice, ModelStatement, Row, Settings,
-        SettingsChanges, Sharing, StoppingRule, Task, TaskBuilder, TaskError, Trials, Variable,
-        Warning,
+        SettingsChanges, Sharing, StatementMethod, StoppingRule, Task, TaskBuilder, TaskError,
+        Trials, Variable, Warning,
     };
 }

@@ -11,7 +11,9 @@ use std::sync::atomic::{AtomicBool, Ordering};
 use clap::{Args, ValueEnum};
 
 use super::exit::say;
-use super::options::{self, AnswerOptions, CoverageOption, Interactive, Seed, Threads, Trust};
+use super::options::{
+    self, AnswerOptions, CoverageOption, Interactive, Seed, StatementOption, Threads, Trust,
+};
 use super::output::AnswerPlace;
 use super::{CommandLine, Exit, Failure, output, progress, run, signals};
 use gumption_analysis::certificate::contents::{Certificate as Asked, Line};
@@ -56,6 +58,8 @@ pub(super) struct Certificate {
     stylesheet: bool,
     #[command(flatten)]
     coverage: CoverageOption,
+    #[command(flatten)]
+    statement: StatementOption,
     #[command(flatten)]
     threads: Threads,
 }
@@ -125,6 +129,7 @@ impl Certificate {
             settings.seed = self.seed.or(settings.seed);
             settings.coverage = self.coverage.or(settings.coverage);
             settings.method = self.method.or(settings.method);
+            settings.statement = self.statement.requested().unwrap_or(settings.statement);
             if let Some(trials) = self.trials {
                 settings.trials = trials;
                 settings.decide_up_to = 0;

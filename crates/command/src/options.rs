@@ -16,7 +16,9 @@ use super::surroundings::{GivenFile, in_call};
 use super::{CommandLine, Failure, output};
 use gumption_engine::parallel::{self, Pool};
 use gumption_engine::propagate::Control;
-use gumption_engine::task::{Coverage, MethodChoice, Row, StoppingRule, Trials, Warning};
+use gumption_engine::task::{
+    Coverage, MethodChoice, Row, StatementMethod, StoppingRule, Trials, Warning,
+};
 use gumption_files::{CaseFile, FileReader, ModelFile, Override};
 use gumption_report::{BudgetColumn, plain};
 use gumption_text::bytes;
@@ -476,6 +478,29 @@ pub(super) fn rule() -> impl TypedValueParser<Value = StoppingRule> {
 pub(super) fn method() -> impl TypedValueParser<Value = MethodChoice> {
     PossibleValuesParser::new(MethodChoice::ALL.map(MethodChoice::name))
         .try_map(|name| MethodChoice::named(&name).ok_or("there is no such method"))
+}
+
+/// Which method gives the stated value and expanded uncertainty.
+#[derive(Clone, Copy, Debug, Args)]
+pub(super) struct StatementOption {
+    /// Source of the stated value and U: the law of propagation with k from the effective degrees of
+    /// freedom (gum), the interval of the trials (monte-carlo), or the law of propagation where the
+    /// trials agree with it apart from few degrees of freedom (auto) [default: that of the file, or
+    /// auto]
+    #[arg(long, value_name = "METHOD", value_parser = statement())]
+    statement: Option<StatementMethod>,
+}
+
+impl StatementOption {
+    /// The requested method, if one is.
+    pub(super) fn requested(self) -> Option<StatementMethod> {
+        self.statement
+    }
+}
+
+fn statement() -> impl TypedValueParser<Value = StatementMethod> {
+    PossibleValuesParser::new(StatementMethod::ALL.map(StatementMethod::name))
+        .try_map(|name| StatementMethod::named(&name).ok_or("there is no such method"))
 }
 
 /// A coverage probability.

@@ -6,7 +6,7 @@ use std::sync::atomic::AtomicBool;
 use clap::{Args, ValueEnum};
 
 use super::evaluated::Evaluated;
-use super::options::{self, CoverageOption, ModelArguments, Seed, Threads};
+use super::options::{self, CoverageOption, ModelArguments, Seed, StatementOption, Threads};
 use super::parted_run::PartedRun;
 use super::{CommandLine, Exit, Failure, parts, progress, signals};
 use gumption_engine::propagate::{Control, Evaluation, EvaluationError, evaluate};
@@ -58,6 +58,8 @@ pub(super) struct Run {
     memory: usize,
     #[command(flatten)]
     coverage: CoverageOption,
+    #[command(flatten)]
+    statement: StatementOption,
     /// Number of significant digits of the standard uncertainty that are regarded as meaningful
     /// (clause 8)
     #[arg(
@@ -146,6 +148,7 @@ impl Run {
             seed: Some(self.seed.or(settings.seed)),
             digits: self.digits,
             real_dof: self.dof.is_some(),
+            statement: self.statement.requested(),
         };
         task.settings = asked.applied(settings);
     }

@@ -227,7 +227,7 @@ fn few_degrees_of_freedom_are_no_curvature() {
             let evaluation = evaluate(&task, &Control::default()).unwrap();
             let notes = warnings(&task, &evaluation);
             assert!(notes.iter().all(|note| note.code() != "non-linear"), "{formula} {notes:?}");
-            let found = Stated::of(first(&evaluation), &task.settings, |_| None).unwrap();
+            let found = Stated::of(first(&evaluation), &task.settings).unwrap();
             stated.push(found.expanded_uncertainty);
         }
         assert!(stated.iter().all(|u| *u == stated[0]), "{formula} {stated:?}");
@@ -277,7 +277,7 @@ fn trials_on_both_sides_of_a_cut() {
         assert!(notes.iter().all(|note| note.0 != "non-linear"), "{formula} {notes:?}");
         let found = first(&evaluation);
         let gum = found.gum.as_ref().unwrap();
-        let stated = Stated::of(found, &task(&text(formula, unit)).settings, |_| None).unwrap();
+        let stated = Stated::of(found, &task(&text(formula, unit)).settings).unwrap();
         assert_eq!(
             (stated.value, stated.standard_uncertainty),
             (gum.estimate, gum.standard_uncertainty)
@@ -323,7 +323,7 @@ fn quotients_by_what_may_be_zero() {
         (task.settings.trials, task.settings.seed) = (Trials::Fixed(200_000), seed);
         task.settings.decide_up_to = 0;
         let evaluation = evaluate(&task, &Control::default()).unwrap();
-        let stated = Stated::of(first(&evaluation), &task.settings, |_| None).unwrap();
+        let stated = Stated::of(first(&evaluation), &task.settings).unwrap();
         found.push((stated.value, stated.coverage_factor));
     }
     for (value, factor) in &found {

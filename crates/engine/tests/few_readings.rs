@@ -28,7 +28,7 @@ fn run(task: &mut Task, seed: u64, trials: u64) -> Evaluation {
 }
 
 fn stated(task: &Task, found: &OutputEvaluation) -> Stated {
-    Stated::of(found, &task.settings, |u| position(u, task.settings.digits)).unwrap()
+    Stated::of(found, &task.settings).unwrap()
 }
 
 fn readings(name: &str, values: &[f64]) -> String {

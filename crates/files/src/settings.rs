@@ -2,7 +2,9 @@
 
 use super::coverage_slips;
 use super::keys;
-use gumption_engine::task::{Coverage, MethodChoice, Settings, StoppingRule, Trials};
+use gumption_engine::task::{
+    Coverage, MethodChoice, Settings, StatementMethod, StoppingRule, Trials,
+};
 use gumption_text::DiagnosticKind;
 use gumption_text::json::Json;
 use gumption_text::object::{Object, whole_number};
@@ -21,6 +23,9 @@ pub(super) fn read(root: &Object<'_>) -> Settings {
     if let Some(coverage) = coverage(root) {
         settings.coverage = coverage;
     }
+    settings.statement = statement(root).unwrap_or(settings.statement);
+    settings.statement_tolerance =
+        statement_tolerance(root).unwrap_or(settings.statement_tolerance);
     if let Some(member) = root.get("allow_undefined")
         && let Some(share) = root.number("allow_undefined")
     {
@@ -88,34 +93,53 @@ fn trials(object: &Object<'_>) -> Option<Trials> {
     }
 }
 
+/// A value by its name, if the key is there.
+pub(super) fn named<T>(
+    object: &Object<'_>,
+    key: &'static str,
+    find: impl Fn(&str) -> Option<T>,
+    allowed: &[&str],
+) -> Option<T> {
+    let name = object.text(key)?;
+    let found = find(name);
+    if let (None, Some(member)) = (&found, object.get(key)) {
+        let allowed = allowed.iter().map(|name| (*name).to_owned()).collect();
+        let diagnostic =
+            DiagnosticKind::NotOneOf { key: key.into(), found: name.to_owned(), allowed };
+        object.log.report(&member.value.span, diagnostic);
+    }
+    found
+}
+
 /// Which figures without noise are wanted, if a model file says so.
 pub(super) fn method(root: &Object<'_>) -> Option<MethodChoice> {
-    let name = root.get("method").and_then(|_| root.text("method"))?;
-    let choice = MethodChoice::named(name);
-    if let (None, Some(member)) = (choice, root.get("method")) {
-        let diagnostic = DiagnosticKind::NotOneOf {
-            key: "method".into(),
-            found: name.to_owned(),
-            allowed: MethodChoice::ALL.map(|choice| choice.name().to_owned()).to_vec(),
-        };
-        root.log.report(&member.value.span, diagnostic);
-    }
-    choice
+    named(root, "method", MethodChoice::named, &MethodChoice::ALL.map(MethodChoice::name))
 }
 
 /// When an adaptive run stops.
 fn rule(object: &Object<'_>) -> Option<StoppingRule> {
-    let name = object.text("rule")?;
-    let rule = StoppingRule::named(name);
-    if let (None, Some(member)) = (rule, object.get("rule")) {
-        let diagnostic = DiagnosticKind::NotOneOf {
-            key: "rule".into(),
-            found: name.to_owned(),
-            allowed: StoppingRule::ALL.map(|rule| rule.name().to_owned()).to_vec(),
-        };
-        object.log.report(&member.value.span, diagnostic);
+    named(object, "rule", StoppingRule::named, &StoppingRule::ALL.map(StoppingRule::name))
+}
+
+/// Which method gives the stated uncertainty, if the object says so.
+pub(super) fn statement(object: &Object<'_>) -> Option<StatementMethod> {
+    let names = StatementMethod::ALL.map(StatementMethod::name);
+    named(object, "statement", StatementMethod::named, &names)
+}
+
+/// The difference of an endpoint relative to U up to which the law of propagation is stated, if the
+/// object says so.
+pub(super) fn statement_tolerance(root: &Object<'_>) -> Option<f64> {
+    const KEY: &str = "statement_tolerance";
+    let member = root.get(KEY)?;
+    let found = root.number(KEY)?;
+    if found > 0.0 && found < 1.0 {
+        return Some(found);
     }
-    rule
+    let range = "above 0 and below 1, such as 0.05";
+    let diagnostic = DiagnosticKind::OutOfRange { key: KEY.to_owned(), found, range };
+    root.log.report(&member.value.span, diagnostic);
+    None
 }
 
 /// The coverage that a root object asks for, if it does.

@@ -16,7 +16,9 @@ use serde_json::{Map, Value, json};
 use super::model_file::ModelFile;
 use super::overrides::Override;
 use super::reader::FileReader;
-use gumption_engine::task::{Coverage, MethodChoice, Settings, StoppingRule, Trials};
+use gumption_engine::task::{
+    Coverage, MethodChoice, Settings, StatementMethod, StoppingRule, Trials,
+};
 use gumption_text::bytes::sha256;
 use gumption_text::{Diagnostics, bytes};
 
@@ -255,6 +257,8 @@ impl SharedRun {
                 "digits": settings.digits,
                 "own_digits": settings.own_digits,
                 "real_dof": settings.real_dof,
+                "statement": settings.statement.name(),
+                "statement_tolerance": settings.statement_tolerance,
                 "allowed_undefined": settings.allowed_undefined,
             },
             "memory": self.memory,
@@ -320,6 +324,9 @@ fn settings(found: &Map<String, Value>) -> Option<Settings> {
     settings.digits = u32::try_from(number("digits")?).ok().filter(|n| (1..=15).contains(n))?;
     settings.own_digits = flag("own_digits")?;
     settings.real_dof = flag("real_dof")?;
+    settings.statement = StatementMethod::named(found.get("statement")?.as_str()?)?;
+    settings.statement_tolerance =
+        found.get("statement_tolerance")?.as_f64().filter(|share| *share > 0.0 && *share < 1.0)?;
     settings.allowed_undefined =
         found.get("allowed_undefined")?.as_f64().filter(|p| (0.0..=1.0).contains(p))?;
     Some(settings)

@@ -138,7 +138,7 @@ impl Serialize for Outputs<'_> {
                 monte_carlo: MonteCarloSide::of(task, row, evaluation, stopped),
                 exact: noiseless.map(|found| found.as_deref().ok().map(NoiselessSide::of)),
                 why: noiseless.and_then(|found| found.as_ref().err()).map(String::as_str),
-                validation: evaluation.validation.map(Validation::from),
+                validation: Validation::of(evaluation, task.settings.statement_tolerance),
                 conformity: evaluation.conformity.as_deref().map(ConformitySide::of),
                 cmc: evaluation.capability.as_deref().map(CmcSide::of),
             };
@@ -497,6 +497,9 @@ struct Validation {
     d_low: f64,
     d_high: f64,
     gum_valid: Option<bool>,
+    /// Why the interval is not validated.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    cause: Option<&'static str>,
 }
 
 #[derive(Serialize)]
@@ -680,10 +683,13 @@ impl From<NumericalError> for ErrorSide {
     }
 }
 
-impl From<validate::Validation> for Validation {
-    fn from(validation: validate::Validation) -> Self {
-        let validate::Validation { digits, tolerance, d_low, d_high, gum_valid } = validation;
-        Self { digits, tolerance, d_low, d_high, gum_valid }
+impl Validation {
+    fn of(evaluation: &OutputEvaluation, allowed: f64) -> Option<Self> {
+        let validate::Validation { digits, tolerance, d_low, d_high, gum_valid } =
+            evaluation.validation?;
+        let agreement = evaluation.agreement.filter(|_| gum_valid == Some(false));
+        let cause = agreement.map(|agreement| agreement.cause(allowed).name());
+        Some(Self { digits, tolerance, d_low, d_high, gum_valid, cause })
     }
 }
 

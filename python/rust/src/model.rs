@@ -8,7 +8,9 @@ use gumption::command::Failure;
 use gumption::file::{ModelFile, Override, bytes};
 use gumption::propagate::{Control, Evaluation, evaluate, warnings};
 use gumption::report::Provenance;
-use gumption::task::{Coverage, MethodChoice, SettingsChanges, StoppingRule, Task, Trials};
+use gumption::task::{
+    Coverage, MethodChoice, SettingsChanges, StatementMethod, StoppingRule, Task, Trials,
+};
 use numpy::PyArray1;
 use pyo3::prelude::*;
 use pyo3::types::{PyDict, PyTuple};
@@ -101,6 +103,12 @@ impl RunRequest {
                     let method = method.and_then(|method| MethodChoice::named(&method));
                     let names = "\"auto\", \"monte-carlo\", \"exact\" or \"quasi\"";
                     asked.changes.method = Some(method.ok_or_else(|| needed(names))?);
+                }
+                "statement" => {
+                    let method = value.extract::<String>().ok();
+                    let method = method.and_then(|method| StatementMethod::named(&method));
+                    let names = "\"auto\", \"gum\" or \"monte-carlo\"";
+                    asked.changes.statement = Some(method.ok_or_else(|| needed(names))?);
                 }
                 "max_trials" => {
                     let most = value.extract().ok().filter(|n| *n >= 20_000);

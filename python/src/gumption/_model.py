@@ -98,6 +98,7 @@ class Model:
         k: float | None = None,
         digits: int | None = None,
         real_dof: bool = False,
+        statement: str | None = None,
         validate: bool = False,
         rule: str | None = None,
         method: str | None = None,
@@ -132,6 +133,10 @@ class Model:
             (clause 8).
         real_dof : bool, default False
             Take the coverage factor at the real number of effective degrees of freedom.
+        statement : {"auto", "gum", "monte-carlo"}, optional
+            Method that gives the stated value and U: the law of propagation, the interval of the
+            trials, or the law of propagation where the trials agree apart from few degrees of
+            freedom.
         validate : bool, default False
             Make as many trials as the validation of the GUM interval needs (JCGM 101, 8.2).
         rule : {"7.9", "stein"}, optional
@@ -175,8 +180,9 @@ class Model:
         """
         options = {
             "trials": trials, "seed": seed, "coverage": coverage, "k": k, "digits": digits,
-            "real_dof": real_dof or None, "validate": validate or None, "rule": rule,
-            "method": method, "max_trials": max_trials, "threads": threads, "memory": memory,
+            "real_dof": real_dof or None, "statement": statement,
+            "validate": validate or None, "rule": rule, "method": method, "max_trials": max_trials,
+            "threads": threads, "memory": memory,
         }  # fmt: skip
         given = {name: value for name, value in options.items() if value is not None}
         if executor is None:

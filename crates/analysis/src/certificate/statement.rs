@@ -87,10 +87,7 @@ pub(super) fn of(
     wanted: StatementRules<'_>,
 ) -> Option<Statement> {
     let StatementRules { settings, .. } = wanted;
-    let place = |expanded: f64| {
-        rounding::expanded(expanded, wanted.digits, wanted.rounding).map(Decimal::position)
-    };
-    let found = Stated::of(output, settings, place)?;
+    let found = Stated::of(output, settings)?;
     let evaluated = found.expanded_uncertainty;
     let limit = capability.map(|capability| {
         let beside = CapabilityStatement::of(capability, found.value, evaluated, settings.coverage);

@@ -52,6 +52,11 @@ impl Fitted {
         })
     }
 
+    /// The same parameter or reading of a fit that is the same but for its degrees of freedom.
+    pub(crate) fn of_fit(&self, fit: &Arc<Regression>) -> Self {
+        Self { fit: Arc::clone(fit), ..self.clone() }
+    }
+
     /// The fit.
     pub fn fit(&self) -> &Arc<Regression> {
         &self.fit

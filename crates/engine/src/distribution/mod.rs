@@ -164,6 +164,15 @@ macro_rules! distributions {
                 }
             }
 
+            /// The distribution if its standard uncertainty were known exactly, with infinite degrees
+            /// of freedom: normal for a t distribution and for readings, without an inexact width for
+            /// a rectangular one. `None` if it is known exactly, and for shapes without such a
+            /// counterpart: results, cut-off and empirical distributions, and fits, whose parameters
+            /// are drawn together.
+            pub(crate) fn with_infinite_dof(&self) -> Option<Self> {
+                match self { $(Self::$shape(shape) => Shape::with_infinite_dof(shape),)* }
+            }
+
             /// The distribution of the value times a factor above 0, as in another unit. `None` for
             /// shapes other than constants, normal, rectangular, triangular, t and arcsine
             /// distributions, and if the result is not finite.

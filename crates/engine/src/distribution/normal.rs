@@ -1,6 +1,7 @@
 //! The normal distribution (JCGM 101, 6.4.7), and the t distribution that replaces it if the
 //! standard uncertainty itself has few degrees of freedom (JCGM 101, 6.4.9.7).
 
+use super::Distribution;
 use super::shape::{Invalid, Shape, drawn_degrees_of_freedom, finite, positive};
 use super::stream::Stream;
 use super::student;
@@ -97,6 +98,10 @@ impl Shape for Normal {
     fn times(&self, factor: f64) -> Option<Self> {
         let made = Self::with_dof(self.mean * factor, self.std * factor, self.dof).ok()?;
         Some(Self { divisor: self.divisor, ..made })
+    }
+
+    fn with_infinite_dof(&self) -> Option<Distribution> {
+        self.dof.is_finite().then(|| Self { dof: f64::INFINITY, ..*self }.into())
     }
 
     fn moved_to(&self, estimate: f64) -> Result<Self, Invalid> {

@@ -2,7 +2,7 @@
 
 use super::shape::{Invalid, Shape, finite};
 use super::stream::Stream;
-use super::student;
+use super::{Distribution, Normal, student};
 use crate::number::Column;
 
 /// Repeated independent readings of one quantity. The estimate is their mean; trials are drawn from
@@ -159,6 +159,14 @@ impl Shape for Readings {
     #[inline(always)]
     fn draw(&self, stream: &mut Stream, out: &mut Column) {
         student::draw(self.mean, self.drawn_scale(), self.drawn_dof(), stream, out);
+    }
+
+    /// A Bayesian standard uncertainty has infinite degrees of freedom already (JCGM 101, 6.4.9.4).
+    fn with_infinite_dof(&self) -> Option<Distribution> {
+        if self.bayesian {
+            return None;
+        }
+        Normal::new(self.mean, self.scale).ok().map(Distribution::from)
     }
 
     fn moved_to(&self, estimate: f64) -> Result<Self, Invalid> {

@@ -1,5 +1,6 @@
 //! The rectangular distribution (JCGM 101, 6.4.2; JCGM 100, 4.3.7).
 
+use super::Distribution;
 use super::characteristic::Characteristic;
 use super::curvilinear_trapezoid::CurvilinearTrapezoid;
 use super::inexact_width::InexactWidth;
@@ -128,6 +129,10 @@ impl Shape for Rectangular {
     fn times(&self, factor: f64) -> Option<Self> {
         let made = Self::new(self.mean * factor, self.half_width * factor).ok()?;
         Some(Self { width: self.width, ..made })
+    }
+
+    fn with_infinite_dof(&self) -> Option<Distribution> {
+        (!self.width.is_exact()).then(|| Self { width: InexactWidth::EXACT, ..*self }.into())
     }
 
     fn moved_to(&self, estimate: f64) -> Result<Self, Invalid> {

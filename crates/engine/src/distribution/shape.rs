@@ -2,6 +2,7 @@
 
 use std::fmt;
 
+use super::Distribution;
 use super::stream::Stream;
 use crate::number::{Column, Shortest};
 
@@ -73,6 +74,12 @@ pub(crate) trait Shape {
     where
         Self: Sized,
     {
+        None
+    }
+
+    /// The distribution if its standard uncertainty were known exactly, with infinite degrees of
+    /// freedom; `None` if it is, and for shapes that have no such counterpart.
+    fn with_infinite_dof(&self) -> Option<Distribution> {
         None
     }
 

@@ -1,8 +1,8 @@
 //! The scaled and shifted t distribution (JCGM 101, 6.4.9).
 
-use super::normal;
 use super::shape::{Invalid, Shape, drawn_degrees_of_freedom, finite, positive};
 use super::stream::Stream;
+use super::{Distribution, Normal, normal};
 use crate::number::{COLUMN, Column, Kernel, elementary};
 use crate::special;
 
@@ -72,6 +72,10 @@ impl Shape for StudentT {
 
     fn times(&self, factor: f64) -> Option<Self> {
         Self::new(self.mean * factor, self.scale * factor, self.dof).ok()
+    }
+
+    fn with_infinite_dof(&self) -> Option<Distribution> {
+        Normal::new(self.mean, self.scale).ok().map(Distribution::from)
     }
 
     fn moved_to(&self, estimate: f64) -> Result<Self, Invalid> {

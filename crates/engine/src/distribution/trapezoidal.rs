@@ -1,5 +1,6 @@
 //! The symmetric trapezoidal distribution (JCGM 101, 6.4.4; JCGM 100, 4.3.9).
 
+use super::Distribution;
 use super::characteristic::Characteristic;
 use super::inexact_width::InexactWidth;
 use super::shape::{Invalid, Shape, finite, limits, positive, within};
@@ -124,6 +125,10 @@ impl Shape for Trapezoidal {
                 *x = self.mean + self.inexact.factor(*factor) * (*x - self.mean);
             }
         }
+    }
+
+    fn with_infinite_dof(&self) -> Option<Distribution> {
+        (!self.inexact.is_exact()).then(|| Self { inexact: InexactWidth::EXACT, ..*self }.into())
     }
 
     fn moved_to(&self, estimate: f64) -> Result<Self, Invalid> {

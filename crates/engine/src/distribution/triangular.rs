@@ -1,5 +1,6 @@
 //! The triangular distribution (JCGM 101, 6.4.5; JCGM 100, 4.3.9).
 
+use super::Distribution;
 use super::characteristic::Characteristic;
 use super::inexact_width::InexactWidth;
 use super::shape::{Invalid, Shape, finite, limits, positive};
@@ -186,6 +187,10 @@ impl Shape for Triangular {
         let [lower, rise, fall] = scaled;
         let is_finite = scaled.iter().all(|part| part.is_finite()) && rise + fall > 0.0;
         is_finite.then_some(Self { lower, rise, fall, ..*self })
+    }
+
+    fn with_infinite_dof(&self) -> Option<Distribution> {
+        (!self.inexact.is_exact()).then(|| Self { inexact: InexactWidth::EXACT, ..*self }.into())
     }
 
     fn moved_to(&self, estimate: f64) -> Result<Self, Invalid> {

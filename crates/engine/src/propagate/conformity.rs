@@ -15,7 +15,6 @@ use super::figures::OutputEvaluation;
 use super::gum::Gum;
 use super::monte_carlo::MonteCarlo;
 use super::statement::{Stated, located};
-use crate::decimal::position;
 use crate::distribution::Distribution;
 use crate::model::{Output, Tolerance};
 use crate::number::elementary;
@@ -163,8 +162,7 @@ impl Conformity {
         let gum = figures.gum.as_ref();
         let of_trials = figures.monte_carlo.as_ref().filter(|_| output.tolerance.is_some());
         let of_trials = of_trials.and_then(|trials| {
-            let place = |expanded: f64| position(expanded, settings.digits);
-            let stated = Stated::of(figures, settings, place);
+            let stated = Stated::of(figures, settings);
             let guard_band = figures.guard_band_of_trials;
             Self::of(output, trials, gum, stated, figures.trusted(), guard_band)
         });

@@ -7,6 +7,7 @@ use std::sync::{Arc, Mutex, PoisonError};
 use rayon::prelude::*;
 
 use super::Control;
+use super::agreement::{self, Agreement};
 use super::branch;
 use super::conformity::{Conformity, ErrorLaw};
 use super::evaluation_error::{EvaluationError, named_values};
@@ -15,7 +16,7 @@ use super::figures::{
     CapabilityStatement, Evaluation, FEW_ROWS, JointlyDrawn, NOTEWORTHY, OutputEvaluation,
     RowEvaluation,
 };
-use super::gum::{self, Gum, GumRow};
+use super::gum::{self, Dof, Gum, GumRow};
 use super::inherited::Inherited;
 use super::moment_order::moment_orders;
 use super::monte_carlo::{self, AdaptiveSearch, MonteCarlo, Request, Undefined};
@@ -25,7 +26,6 @@ use super::second_order::second_order;
 use super::statement::Stated;
 use super::validate::{Validation, validate};
 use super::{quasi, rounding};
-use crate::decimal::position;
 use crate::distribution::{BLOCK, Distribution, Joint};
 use crate::model::{Output, Program};
 use crate::number::{COLUMN, Column};
@@ -271,6 +271,9 @@ fn evaluate_row(
         second = second_order(task, row, &linear);
         gums = std::mem::take(&mut linear.outputs);
     }
+    let validations = validations(task, &gums, &figures);
+    let at_infinite_dof = of_few_dof(&gums, &validations)
+        .and_then(|gums| agreement::at_infinite_dof(task, row, &linear.estimates, &gums, control));
     let evaluated = gums.into_iter().zip(figures).zip(drawn_dof).zip(&task.model.outputs);
     let evaluated = evaluated.zip(second).zip(inherited).enumerate();
     let again = OnceCell::new();
@@ -291,15 +294,22 @@ fn evaluate_row(
                 nonlinear != Some(false) && (second.standard_uncertainty - u).abs() > NOTEWORTHY * u
             })
         });
-        let validation = match (&gum, &monte_carlo) {
-            (Some(gum), Some(figures)) => validate(gum, figures, task.settings.digits),
-            _ => None,
-        };
+        let validation = validations[number];
         // where the law of propagation holds beyond doubt, nobody states other figures
         let needed = !validation
             .zip(monte_carlo.as_ref())
             .is_some_and(|(validation, figures)| is_clearly_valid(&validation, figures));
         let noiseless = noiseless(&problem, needed);
+        let is_open = validation.is_some_and(|validation| validation.gum_valid != Some(true));
+        let agreement = gum.as_ref().zip(monte_carlo.as_ref()).filter(|_| is_open).and_then(
+            |(gum, figures)| match (gum.dof, &at_infinite_dof) {
+                (Dof::Infinite, _) | (_, None) => {
+                    let noiseless = noiseless.as_ref().and_then(|found| found.as_deref().ok());
+                    Agreement::as_drawn(gum, figures, noiseless, &task.settings)
+                }
+                (_, Some(found)) => found[number],
+            },
+        );
         let mut found = OutputEvaluation {
             gum,
             monte_carlo,
@@ -309,6 +319,7 @@ fn evaluate_row(
             nonlinear,
             jump,
             validation,
+            agreement,
             capability: None,
             conformity: None,
             drawn_dof,
@@ -336,6 +347,32 @@ fn evaluate_row(
         result.regions = regions(task, &result, &linear, &trials, control)?;
     }
     Ok(result)
+}
+
+/// The comparison of clause 8 for each output.
+fn validations(
+    task: &Task,
+    gums: &[Option<Gum>],
+    figures: &[Option<MonteCarlo>],
+) -> Vec<Option<Validation>> {
+    let digits = task.settings.digits;
+    let both = gums.iter().zip(figures);
+    both.map(|(gum, figures)| validate(gum.as_ref()?, figures.as_ref()?, digits)).collect()
+}
+
+/// The law of propagation of the outputs with finite degrees of freedom whose interval clause 8 does
+/// not validate; `None` where there are none.
+fn of_few_dof<'g>(
+    gums: &'g [Option<Gum>],
+    validations: &[Option<Validation>],
+) -> Option<Vec<Option<&'g Gum>>> {
+    let is_open = |validation: &Validation| validation.gum_valid != Some(true);
+    let open = gums.iter().zip(validations).map(|(gum, validation)| {
+        let gum = gum.as_ref().filter(|gum| gum.dof != Dof::Infinite)?;
+        validation.filter(is_open).map(|_| gum)
+    });
+    let open: Vec<Option<&Gum>> = open.collect();
+    open.iter().any(Option::is_some).then_some(open)
 }
 
 /// Takes away what rounding shows of outputs that do not vary: their figures are those of their value at
@@ -656,7 +693,7 @@ fn capability_beside(
     settings: &Settings,
 ) -> Option<CapabilityStatement> {
     let capability = output.capability.as_ref()?;
-    let found = Stated::of(figures, settings, |u| position(u, settings.digits))?;
+    let found = Stated::of(figures, settings)?;
     Some(CapabilityStatement::of(
         capability,
         found.value,

@@ -2,6 +2,7 @@
 
 use std::sync::Arc;
 
+use super::agreement::Agreement;
 use super::branch::Jump;
 use super::conformity::Conformity;
 use super::exact::Noiseless;
@@ -93,6 +94,10 @@ pub struct OutputEvaluation {
     pub noiseless: Option<Result<Box<Noiseless>, String>>,
     /// Their comparison.
     pub validation: Option<Validation>,
+    /// How far their intervals agree apart from few degrees of freedom, on which
+    /// [`StatementMethod::Auto`](crate::task::StatementMethod::Auto) decides; `None` where clause 8
+    /// validates the interval of the law of propagation, or where there are not both intervals.
+    pub agreement: Option<Agreement>,
     /// The laboratory's capability, and what may be stated beside it; `None` if there is none of
     /// either.
     pub capability: Option<Box<CapabilityStatement>>,

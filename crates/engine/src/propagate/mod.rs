@@ -3,6 +3,7 @@
 //! ([`monte_carlo`], JCGM 101) at the same time, and the comparison of the two ([`validate`],
 //! JCGM 101, clause 8).
 
+mod agreement;
 mod branch;
 mod budget;
 mod conformity;
@@ -35,6 +36,7 @@ pub mod validate;
 mod warnings;
 mod whole_turns;
 
+pub use agreement::{Agreement, DifferenceCause};
 pub use conformity::{Conformity, GlobalRisks};
 pub use control::Control;
 pub use evaluation::in_pool;

@@ -6,7 +6,7 @@ use super::figures::OutputEvaluation;
 use super::gum::{Dof, Gum};
 use super::monte_carlo::MonteCarlo;
 use crate::decimal::to_position;
-use crate::task::{Coverage, Settings};
+use crate::task::{Coverage, Settings, StatementMethod};
 
 /// What a stated expanded uncertainty rests on.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -61,51 +61,39 @@ pub struct Stated {
 }
 
 impl Stated {
-    /// What is stated of an output; `None` where there is no expanded uncertainty to be stated.
-    /// `place` tells the position of the last digit that an expanded uncertainty is printed with:
-    /// where clause 8 fails but the digits would be the same, the law of propagation stands.
-    pub fn of(
-        output: &OutputEvaluation,
-        settings: &Settings,
-        place: impl Fn(f64) -> Option<i32>,
-    ) -> Option<Self> {
-        let noiseless = output.noiseless.as_ref().and_then(|figures| figures.as_deref().ok());
-        let interval = output.gum.as_ref().and_then(Gum::interval);
-        let refuted = match (output.validation, noiseless, interval) {
-            (Some(validation), Some(noiseless), Some(interval)) => {
-                let ends = interval.iter().zip(noiseless.symmetric_interval);
-                ends.into_iter().any(|(gum, end)| (gum - end).abs() > validation.tolerance)
-            }
-            (validation, ..) => validation.is_some_and(|v| v.gum_valid == Some(false)),
-        };
+    /// What is stated of an output by [`Settings::statement`]; `None` where there is no expanded
+    /// uncertainty to be stated.
+    pub fn of(output: &OutputEvaluation, settings: &Settings) -> Option<Self> {
         let linear = || by_propagation(output.gum.as_ref()?, settings);
         // figures without the noise of trials, so that no digit depends on a seed
         let trials = || {
             let gum = output.gum.as_ref();
+            let noiseless = output.noiseless.as_ref().and_then(|figures| figures.as_deref().ok());
             let noiseless = noiseless.and_then(|noiseless| without_noise(noiseless, gum));
             noiseless.or_else(|| by_trials(output.monte_carlo.as_ref()?, gum))
         };
-        // trials on both sides of a cut have no mean and no interval
-        if output.jump.is_some()
-            && let Some(linear) = linear()
-        {
-            return Some(linear);
+        let agreed = |stated: Self| match settings.coverage {
+            Coverage::Factor { factor, fixed: true } => stated.with_factor(factor),
+            _ => stated,
+        };
+        match settings.statement {
+            StatementMethod::Gum => linear(),
+            StatementMethod::MonteCarlo => trials().map(agreed),
+            // trials on both sides of a cut have no mean and no interval
+            StatementMethod::Auto if output.jump.is_some() => {
+                linear().or_else(|| trials().map(agreed))
+            }
+            StatementMethod::Auto if output.agrees(settings.statement_tolerance) => {
+                linear().or_else(|| trials().map(agreed))
+            }
+            // an agreed factor is kept, with the standard uncertainty that a linear model has
+            StatementMethod::Auto => match (settings.coverage, output.nonlinear) {
+                (Coverage::Factor { fixed: true, .. }, Some(false)) => {
+                    linear().or_else(trials).map(agreed)
+                }
+                _ => trials().or_else(linear).map(agreed),
+            },
         }
-        // an agreed factor is kept; what is refuted has no distribution that it could belong to
-        if let Coverage::Factor { factor, fixed: true } = settings.coverage {
-            let agreed = |stated: Stated| stated.with_factor(factor);
-            return match (refuted, output.nonlinear.unwrap_or(true)) {
-                (false, _) => linear().or_else(|| trials().map(agreed)),
-                (true, true) => trials().or_else(linear).map(agreed),
-                (true, false) => linear().or_else(trials).map(agreed),
-            };
-        }
-        // a clause 8 that fails is no matter where what is stated would be the same
-        let refuted = refuted
-            && !linear().zip(trials()).is_some_and(|(linear, trials)| {
-                linear.states_as(&trials, place(linear.expanded_uncertainty))
-            });
-        if refuted { trials().or_else(linear) } else { linear().or_else(trials) }
     }
 
     /// With an agreed coverage factor, which says nothing of an interval.
@@ -118,20 +106,6 @@ impl Stated {
             interval: None,
             ..self
         }
-    }
-
-    /// Whether another's interval is the same to a place, and not by rounding alone: a coverage
-    /// factor of 2 and the words "normally distributed" stand beside the digits.
-    fn states_as(&self, other: &Self, place: Option<i32>) -> bool {
-        if (other.coverage_factor / self.coverage_factor - 1.0).abs() > ROUNDED_AWAY {
-            return false;
-        }
-        let Some(place) = place else {
-            return false;
-        };
-        let own = [self.value - self.expanded_uncertainty, self.value + self.expanded_uncertainty];
-        let ends = |ends: [f64; 2]| ends.map(|end| to_position(end, place));
-        other.interval.is_some_and(|interval| ends(interval) == ends(own))
     }
 }
 
@@ -161,9 +135,6 @@ fn is_normal(factor: f64, coverage: Coverage) -> bool {
     to_position(factor, -2) == to_position(coverage.normal_factor(), -2)
 }
 
-/// Rounding may change an expanded uncertainty by this share (EA-4/02 M:2022, 6.3).
-const ROUNDED_AWAY: f64 = 0.05;
-
 /// A symmetric interval that is longer than the shortest one by less than this share is stated in its
 /// place.
 const AS_SHORT: f64 = 0.01;
@@ -191,6 +162,14 @@ fn by_trials(figures: &MonteCarlo, gum: Option<&Gum>) -> Option<Stated> {
 const SAME_ESTIMATE: f64 = 6.0;
 
 impl OutputEvaluation {
+    /// Whether the interval of the law of propagation agrees with that of the trials within a share
+    /// of the expanded uncertainty, apart from few degrees of freedom. Where nothing was compared it
+    /// is believed.
+    pub fn agrees(&self, share: f64) -> bool {
+        let is_refuted = self.validation.is_some_and(|v| v.gum_valid != Some(true));
+        !is_refuted || self.agreement.is_some_and(|agreement| agreement.is_within(share))
+    }
+
     /// Where the output lies by its trials, and the numerical standard error of that (0 of what no seed
     /// moves), in the unit of the output; `None` without trials. It is the mean of the trials where they
     /// have a variance and it is told from the estimate by the law of propagation, and otherwise that

@@ -2,6 +2,7 @@
 
 use std::collections::HashMap;
 
+use super::agreement::DifferenceCause;
 use super::figures::{
     CapabilityStatement, Evaluation, FEW_ROWS, NOTEWORTHY, OutputEvaluation, RowEvaluation,
     scatter_of_few,
@@ -11,12 +12,13 @@ use super::inherited_note;
 use super::monte_carlo::{Adaptive, MonteCarlo};
 use super::rounding;
 use super::second_order::SecondOrder;
+use super::statement::{Basis, Stated};
 use crate::decimal::{significant, to_digits};
 use crate::fact;
 use crate::fact::{Argument, Fact};
 use crate::model::Output;
 use crate::number::Shortest;
-use crate::task::{Coverage, Task, Trials, Warning};
+use crate::task::{Coverage, StatementMethod, Task, Trials, Warning};
 
 /// Outputs of saved results that cancel are worth a note from this share of the standard uncertainty
 /// on.
@@ -295,6 +297,7 @@ fn of_output(
     };
     of_extremes(name, &at, monte_carlo, found);
     of_heavy_tails(name, &at, output, monte_carlo, found);
+    of_statement(task, name, &at, output, found);
     let spread = monte_carlo.standard_uncertainty.unwrap_or(gum.standard_uncertainty);
     of_results(name, &at, row, gum, spread, found);
     if let Some(Adaptive { converged: false, tolerance, .. }) = monte_carlo.adaptive
@@ -321,6 +324,46 @@ fn of_output(
 
 /// What rounding leaves of contributions that cancel, in the largest of them.
 const ROUNDING: f64 = 1e-13;
+
+/// Which method the stated uncertainty comes from where clause 8 does not validate the interval of the
+/// law of propagation, and why.
+fn of_statement(
+    task: &Task,
+    name: &str,
+    at: &Option<Fact>,
+    output: &OutputEvaluation,
+    found: &mut Vec<Warning>,
+) {
+    let settings = &task.settings;
+    let is_refuted = output.validation.is_some_and(|v| v.gum_valid == Some(false));
+    let (Some(agreement), Some(stated), true) =
+        (output.agreement, Stated::of(output, settings), is_refuted)
+    else {
+        return;
+    };
+    let at = at.clone();
+    let percent = |share: f64| Argument::number(significant(100.0 * share, 2));
+    let (difference, allowed) =
+        (percent(agreement.difference), percent(settings.statement_tolerance));
+    let cause = agreement.cause(settings.statement_tolerance);
+    let fact = match (settings.statement, stated.basis == Basis::Shortest, cause) {
+        (StatementMethod::Gum, ..) => fact!("stated-by.gum", name, at),
+        (StatementMethod::MonteCarlo, ..) => fact!("stated-by.monte-carlo", name, at),
+        (StatementMethod::Auto, false, DifferenceCause::DegreesOfFreedom) => {
+            fact!("stated-by.few-dof", name, at, difference)
+        }
+        (StatementMethod::Auto, false, DifferenceCause::Shape) => {
+            fact!("stated-by.near", name, at, difference, allowed)
+        }
+        (StatementMethod::Auto, true, _) if agreement.at_infinite_dof => {
+            fact!("stated-by.shape-few-dof", name, at, difference, allowed)
+        }
+        (StatementMethod::Auto, true, _) => {
+            fact!("stated-by.shape", name, at, difference, allowed)
+        }
+    };
+    push(found, Warning::new(name, fact));
+}
 
 /// Why the standard uncertainties of the two methods differ: few degrees of freedom, a model that is
 /// not linear, or both.

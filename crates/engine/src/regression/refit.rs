@@ -89,6 +89,9 @@ impl Refit {
     /// factor with its own uncertainty, s sqrt(nu/chi2).
     fn factors(&self, stream: &mut Stream) -> [f64; COLUMN] {
         let Some(factor) = self.fit.factor else { return [1.0; COLUMN] };
+        if self.fit.factor_is_exact {
+            return [factor; COLUMN];
+        }
         let (mut squares, mut normals) = ([0.0; COLUMN], Column::ZERO);
         for _ in 0..self.fit.dof {
             Normal::standard_draw(stream, &mut normals);

@@ -43,6 +43,8 @@ pub struct Regression {
     /// The common factor of the stated standard uncertainties from the residuals, if it is used;
     /// the standard deviation of the residuals if none are stated.
     pub factor: Option<f64>,
+    /// Whether that factor is taken as known exactly.
+    pub(super) factor_is_exact: bool,
     /// The compared degrees, if the degree was chosen.
     pub degrees: Vec<DegreeChoice>,
 }
@@ -135,6 +137,7 @@ impl Regression {
             chi2,
             dof,
             factor,
+            factor_is_exact: false,
             degrees: Vec::new(),
         })
     }
@@ -168,7 +171,16 @@ impl Regression {
     /// Degrees of freedom of the parameters' uncertainties: infinite if the uncertainties of the
     /// points are stated.
     pub fn degrees_of_freedom(&self) -> f64 {
-        if self.factor.is_some() { self.dof as f64 } else { f64::INFINITY }
+        let is_estimated = self.factor.is_some() && !self.factor_is_exact;
+        if is_estimated { self.dof as f64 } else { f64::INFINITY }
+    }
+
+    /// The same fit if the scatter of its points were known exactly, with infinite degrees of
+    /// freedom; `None` if it is.
+    pub(crate) fn with_infinite_dof(&self) -> Option<Self> {
+        self.degrees_of_freedom()
+            .is_finite()
+            .then(|| Self { factor_is_exact: true, ..self.clone() })
     }
 
     /// The probability of a sum of squares at least this large if the curve and the stated

@@ -20,7 +20,9 @@ pub use error::TaskError;
 pub use evidence::Evidence;
 pub use function::ColumnFunction;
 pub(crate) use function::differences;
-pub use settings::{MethodChoice, Settings, SettingsChanges, StoppingRule, Trials};
+pub use settings::{
+    MethodChoice, Settings, SettingsChanges, StatementMethod, StoppingRule, Trials,
+};
 pub use sharing::Sharing;
 pub use statement::ModelStatement;
 pub use warning::Warning;

@@ -81,6 +81,39 @@ impl MethodChoice {
     }
 }
 
+/// Which of the two methods gives the stated value and expanded uncertainty.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum StatementMethod {
+    /// The law of propagation with its coverage factor from the effective degrees of freedom
+    /// (EA-4/02 M:2022, ILAC-P14:09/2020), where its endpoints agree with those of the trials when
+    /// the same quantities are drawn with infinite degrees of freedom; elsewhere the trials.
+    #[default]
+    Auto,
+    /// The law of propagation (JCGM 100).
+    Gum,
+    /// The coverage interval of the trials (JCGM 101).
+    MonteCarlo,
+}
+
+impl StatementMethod {
+    /// All of them.
+    pub const ALL: [Self; 3] = [Self::Auto, Self::Gum, Self::MonteCarlo];
+
+    /// The name that files and the command line use.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Auto => "auto",
+            Self::Gum => "gum",
+            Self::MonteCarlo => "monte-carlo",
+        }
+    }
+
+    /// The method of that name.
+    pub fn named(name: &str) -> Option<Self> {
+        Self::ALL.into_iter().find(|method| method.name() == name)
+    }
+}
+
 /// The settings of an evaluation. They start from the defaults:
 ///
 /// ```
@@ -122,6 +155,12 @@ pub struct Settings {
     pub method: Option<MethodChoice>,
     /// Whether [`MethodChoice::Auto`] takes quasi-random points where there are no exact figures.
     pub quasi_otherwise: bool,
+    /// Which method gives the stated value and expanded uncertainty.
+    pub statement: StatementMethod,
+    /// The largest difference of an endpoint, relative to U, with which [`StatementMethod::Auto`]
+    /// states the law of propagation; above 0. The usual 0.05 is the share of U that rounding may
+    /// take away (EA-4/02 M:2022, 6.3).
+    pub statement_tolerance: f64,
 }
 
 impl Default for Settings {
@@ -140,6 +179,8 @@ impl Default for Settings {
             allowed_undefined: 0.0,
             method: None,
             quasi_otherwise: false,
+            statement: StatementMethod::default(),
+            statement_tolerance: 0.05,
         }
     }
 }
@@ -190,6 +231,8 @@ pub struct SettingsChanges {
     pub max_trials: Option<u64>,
     /// Seed of the random streams.
     pub seed: Option<u64>,
+    /// Which method gives the stated value and expanded uncertainty.
+    pub statement: Option<StatementMethod>,
     /// Significant digits of the standard uncertainty that are held meaningful.
     pub digits: Option<u32>,
     /// Whether the coverage factor is taken at the real number of effective degrees of freedom.
@@ -213,6 +256,7 @@ impl SettingsChanges {
         settings.method = self.method.or(settings.method);
         settings.max_trials = self.max_trials.unwrap_or(settings.max_trials);
         settings.seed = self.seed.unwrap_or(settings.seed);
+        settings.statement = self.statement.unwrap_or(settings.statement);
         if let Some(digits) = self.digits {
             settings = settings.with_digits(digits);
         }

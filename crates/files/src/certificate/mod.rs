@@ -11,9 +11,9 @@ use std::sync::Arc;
 use super::context::Context;
 use super::keys;
 use super::open::{FileKind, check_format, read_root, refuse_other_kind};
-use super::settings;
+use super::settings::{self, named};
 use gumption_analysis::certificate::contents::{Certificate, DecimalMark, Language, Rounding};
-use gumption_engine::task::{Coverage, Settings, Warning};
+use gumption_engine::task::{Coverage, Settings, StatementMethod, Warning};
 use gumption_text::json::{self, Json, Node};
 use gumption_text::object::Object;
 use gumption_text::{Collector, DiagnosticKind, Diagnostics, Folder, SourceText};
@@ -112,6 +112,10 @@ struct Asking {
     digits: u32,
     /// Settings of the trials that beat those of the model files.
     trials: Option<Settings>,
+    /// Which method gives the stated uncertainties; that of each model file where none is given.
+    statement: Option<StatementMethod>,
+    /// The tolerance of the automatic choice; that of each model file where none is given.
+    statement_tolerance: Option<f64>,
 }
 
 impl Asking {
@@ -132,6 +136,9 @@ impl Asking {
             settings.digits = self.digits;
         }
         settings.coverage = self.coverage.unwrap_or(settings.coverage);
+        settings.statement = self.statement.unwrap_or(settings.statement);
+        settings.statement_tolerance =
+            self.statement_tolerance.unwrap_or(settings.statement_tolerance);
     }
 }
 
@@ -157,7 +164,13 @@ fn certificate<'a>(
     let mut rows = CertificateRows::new(
         root.log,
         (files, folder),
-        Asking { coverage, digits: u32::try_from(digits).unwrap_or(2), trials },
+        Asking {
+            coverage,
+            digits: u32::try_from(digits).unwrap_or(2),
+            trials,
+            statement: settings::statement(&root),
+            statement_tolerance: settings::statement_tolerance(&root),
+        },
     );
     match root.required("rows").and_then(|_| root.list("rows")) {
         Some([]) => {
@@ -201,24 +214,6 @@ fn certificate<'a>(
         separate: separate.into_keys().collect(),
     };
     Some(CertificateFile { certificate, models, warnings, source: root.log.source.clone(), places })
-}
-
-/// A value by its name, if the key is there.
-fn named<T>(
-    object: &Object<'_>,
-    key: &'static str,
-    find: impl Fn(&str) -> Option<T>,
-    allowed: &[&str],
-) -> Option<T> {
-    let name = object.text(key)?;
-    let found = find(name);
-    if let (None, Some(member)) = (&found, object.get(key)) {
-        let allowed = allowed.iter().map(|name| (*name).to_owned()).collect();
-        let diagnostic =
-            DiagnosticKind::NotOneOf { key: key.into(), found: name.to_owned(), allowed };
-        object.log.report(&member.value.span, diagnostic);
-    }
-    found
 }
 
 /// One language or several, each once; English unless given.

@@ -12,6 +12,7 @@ use super::super::model_file::{self, ModelFile};
 use super::super::output_limits;
 use super::super::overrides::Override;
 use super::super::scopes::ConditionSet;
+use super::super::settings;
 use super::administrative::localized;
 use super::{Asking, CertifiedModel};
 use crate::open::{is_no_object, text};
@@ -324,7 +325,12 @@ impl<'a> CertificateRows<'a> {
                 }
             }
         }
-        let same = |asked: &Asked| asked.file == file && asked.set == set;
+        let statement = settings::statement(row).or(self.asking.statement);
+        let statement = statement.unwrap_or(self.models[file].1.settings.statement);
+        let same = |asked: &Asked| {
+            let asked_statement = asked.task.settings.statement;
+            asked.file == file && asked.set == set && asked_statement == statement
+        };
         let evaluation = match self.evaluations.iter().position(same) {
             Some(evaluation) => evaluation,
             None => {
@@ -337,6 +343,7 @@ impl<'a> CertificateRows<'a> {
                     (overrides, Some(member)) => self.model(name, member, overrides)?.task,
                 };
                 self.asking.apply(&mut task.settings);
+                task.settings.statement = statement;
                 self.evaluations.push(Asked { model: name.to_owned(), file, set, task });
                 self.evaluations.len() - 1
             }

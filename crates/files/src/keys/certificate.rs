@@ -102,6 +102,9 @@ pub(crate) const CERTIFICATE: &[Key] = keys![
                 "boolean",
                 "State the models: their equations and what the symbols mean. True unless given.",
             ),
+    "statement" => referenced("statement", "Which method gives U, for all rows; `auto` unless the model \
+                                            files say otherwise."),
+    "statement_tolerance" => referenced("statement-tolerance", "Tolerance of `auto`, for all rows."),
     "monte_carlo" => referenced("monte-carlo", "Trials and seed of all models, in place of their own."),
     "conditions" => names("Conditions that the table shows; all of them unless given."),
     "shared_inputs" => names("Inputs that are one and the same quantity in all model files."),
@@ -157,6 +160,7 @@ pub(crate) const CERTIFICATE_ROW: &[Key] = keys![
     "output" => text_of("The output that is stated."),
     "set" => replaced(),
     "nominal" => nominal(),
+    "statement" => referenced("statement", "Which method gives U of this row."),
     "label" => referenced("localized", "What the row is called instead of the output's name."),
     "cmc" => referenced("width", "The laboratory's capability, in place of the output's."),
     "cmc_floor" => described("boolean", "Raise U to the capability where it is below it."),

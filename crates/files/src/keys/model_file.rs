@@ -61,6 +61,8 @@ pub(crate) const MODEL: &[Key] = keys![
                 .with("exclusiveMinimum", 0)
                 .with("maximum", 8),
     "coverage_factor_fixed" => described("boolean", "Keep the coverage factor whatever the degrees of freedom."),
+    "statement" => referenced("statement", "Which method gives the stated value and U; `auto` unless given."),
+    "statement_tolerance" => reference("statement-tolerance"),
     "monte_carlo" => reference("monte-carlo"),
     "method" => object([
         (

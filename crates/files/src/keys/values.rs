@@ -2,6 +2,7 @@
 
 use super::node::{With, object, texts};
 use super::{Key, closed, described, keys, referenced, text_of};
+use gumption_engine::task::StatementMethod;
 use serde_json::Value;
 
 /// The pattern of a name, in what regular expressions have in every language (JSON Schema 2020-12 Core,
@@ -73,6 +74,26 @@ pub(super) fn definitions() -> Vec<(String, Value)> {
         ),
         ("positive", number("A number above 0.", Some(0), None)),
         ("probability", number("A probability between 0 and 1.", Some(0), Some(1))),
+        (
+            "statement",
+            described(
+                "string",
+                "Which method gives the stated value and U: `gum`, the law of propagation with k from \
+                 the effective degrees of freedom; `monte-carlo`, the interval of the trials; `auto`, \
+                 the law of propagation where its endpoints agree with those of trials with infinite \
+                 degrees of freedom, and the trials elsewhere.",
+            )
+            .with("enum", texts(StatementMethod::ALL.map(StatementMethod::name))),
+        ),
+        (
+            "statement-tolerance",
+            number(
+                "Largest difference of an endpoint, relative to U, with which `auto` states the law of \
+                 propagation; 0.05 unless given.",
+                Some(0),
+                Some(1),
+            ),
+        ),
         ("numbers", list("Numbers in the quantity's unit.")),
         (
             "estimate",

@@ -214,15 +214,8 @@ impl StatedRow<'_> {
         let gum = self.found.gum.as_ref()?;
         let Dof::Finite(exact) = gum.dof else { return None };
         let within = |dof: f64, k: f64| 1.0 - 2.0 * student::sf(k, dof);
-        if let (Some(trials), Some(validation)) = (&self.found.monte_carlo, &self.found.validation)
-        {
-            let asked = self.asked.task.settings.coverage.probability();
-            let half = student::two_sided_factor(asked, exact) * gum.standard_uncertainty;
-            let ends = [gum.estimate - half, gum.estimate + half];
-            let apart = ends.iter().zip(trials.symmetric_interval).map(|(a, b)| (a - b).abs());
-            if apart.fold(0.0, f64::max) > validation.tolerance {
-                return None;
-            }
+        if !self.found.agrees(self.asked.task.settings.statement_tolerance) {
+            return None;
         }
         let dof = self.evaluated_dof().value.unwrap_or(exact);
         let k = match self.statement.limit.filter(|limit| limit.raised) {

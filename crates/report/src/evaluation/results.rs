@@ -117,7 +117,7 @@ fn verdict(settings: &Settings, stated: &Output, found: &OutputEvaluation) -> Ve
     let output = &stated.quantity;
     let mut said = vec![result(settings, output, found)];
     match &found.monte_carlo {
-        Some(figures) => said.push(comparison::verdict(output, found, figures)),
+        Some(figures) => said.push(comparison::verdict(output, found, figures, settings)),
         None => {
             let gum = found.gum.as_ref();
             let interval =
@@ -182,7 +182,7 @@ fn raised(found: &OutputEvaluation) -> Option<&CapabilityStatement> {
 
 /// Whether the factor is an agreed one, which belongs to no coverage probability.
 fn is_agreed(settings: &Settings, found: &OutputEvaluation) -> bool {
-    let stated = Stated::of(found, settings, |u| position(u, settings.digits));
+    let stated = Stated::of(found, settings);
     let fixed = matches!(settings.coverage, Coverage::Factor { fixed: true, .. });
     fixed && stated.is_some_and(|stated| stated.basis == Basis::Fixed)
 }
@@ -241,7 +241,6 @@ pub(crate) enum Taken<'a> {
 
 impl<'a> Taken<'a> {
     pub(crate) fn of(settings: &Settings, found: &'a OutputEvaluation) -> Self {
-        let refuted = found.validation.is_some_and(|v| v.gum_valid == Some(false));
         if let Some(raised) = raised(found) {
             return Self::Expanded {
                 estimate: raised.estimate,
@@ -250,33 +249,21 @@ impl<'a> Taken<'a> {
                 beside: Some(raised),
             };
         }
-        // an agreed factor is kept, also where trials show another interval
-        if let (Coverage::Factor { fixed: true, .. }, true) = (settings.coverage, refuted)
-            && let Some(stated) = Stated::of(found, settings, |u| position(u, settings.digits))
-        {
-            return Self::Expanded {
-                estimate: stated.value,
-                expanded: stated.expanded_uncertainty,
-                factor: stated.coverage_factor,
-                beside: None,
-            };
-        }
-        let trials = found.monte_carlo.as_ref();
-        let gum = found.gum.as_ref();
-        match gum.and_then(|gum| Some((gum, gum.expanded_uncertainty()?, gum.coverage_factor?))) {
-            Some((gum, expanded, factor)) if !refuted || trials.is_none() => {
+        let Some(stated) = Stated::of(found, settings) else {
+            return found.gum.as_ref().map_or(Self::Undefined, Self::Standard);
+        };
+        match found.monte_carlo.as_ref().filter(|_| stated.basis == Basis::Shortest) {
+            Some(figures) => {
+                let located = found.located().unwrap_or((figures.median, f64::NAN));
+                Self::Interval { figures, located }
+            }
+            None => {
+                let expanded = stated.expanded_uncertainty;
                 let beside = found.capability.as_deref();
                 let beside = beside.filter(|beside| beside.expanded_uncertainty == expanded);
-                Self::Expanded { estimate: gum.estimate, expanded, factor, beside }
+                let (estimate, factor) = (stated.value, stated.coverage_factor);
+                Self::Expanded { estimate, expanded, factor, beside }
             }
-            _ => match (trials, gum) {
-                (Some(figures), _) => {
-                    let located = found.located().unwrap_or((figures.median, f64::NAN));
-                    Self::Interval { figures, located }
-                }
-                (None, Some(gum)) => Self::Standard(gum),
-                (None, None) => Self::Undefined,
-            },
         }
     }
 

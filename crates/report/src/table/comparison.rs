@@ -12,8 +12,10 @@ use gumption_engine::model::{Output, Quantity, Tolerance};
 use gumption_engine::propagate::gum::{Dof, Gum};
 use gumption_engine::propagate::monte_carlo::{Adaptive, FIRST_STAGE, MonteCarlo};
 use gumption_engine::propagate::validate::Validation;
-use gumption_engine::propagate::{Accuracy, Conformity, Noiseless, OutputEvaluation};
-use gumption_engine::task::{Coverage, StoppingRule};
+use gumption_engine::propagate::{
+    Accuracy, Basis, Conformity, DifferenceCause, Noiseless, OutputEvaluation, Stated,
+};
+use gumption_engine::task::{Coverage, Settings, StoppingRule};
 
 /// What is said of a shortest interval that is not exact.
 pub(crate) const NEARLY_SHORTEST: &str =
@@ -507,6 +509,7 @@ pub(crate) fn verdict(
     output: &Quantity,
     figures: &OutputEvaluation,
     monte_carlo: &MonteCarlo,
+    settings: &Settings,
 ) -> String {
     let Some(validation) = &figures.validation else {
         return "JCGM 101, clause 8: there is no GUM interval to compare; take the Monte Carlo one."
@@ -532,9 +535,8 @@ pub(crate) fn verdict(
             format!("JCGM 101, clause 8: the GUM interval is valid here: {ends}, within {limit}.")
         }
         Some(false) => format!(
-            "JCGM 101, clause 8: the GUM interval is not valid here: {ends}, beyond {limit}. \
-             Take the {} Monte Carlo interval.",
-            if monte_carlo.stated_interval().shortest { "shortest" } else { "symmetric" }
+            "JCGM 101, clause 8: the GUM interval is not valid here: {ends}, beyond {limit}. {}",
+            cause(figures, monte_carlo, settings)
         ),
         None => format!(
             "JCGM 101, clause 8: undecided whether the GUM interval is valid here: {ends}, too near \
@@ -543,6 +545,40 @@ pub(crate) fn verdict(
             of_results(figures, monte_carlo)
         ),
     }
+}
+
+/// Why clause 8 does not validate the GUM interval, and which interval is stated.
+fn cause(figures: &OutputEvaluation, monte_carlo: &MonteCarlo, settings: &Settings) -> String {
+    let allowed = settings.statement_tolerance;
+    let percent = |share: f64| significant(100.0 * share, 2);
+    let cause = figures.agreement.map(|agreement| {
+        let difference = percent(agreement.difference);
+        match agreement.cause(allowed) {
+            DifferenceCause::DegreesOfFreedom => format!(
+                "The cause is few degrees of freedom: with infinite ones the ends differ by \
+                 {difference} % of U."
+            ),
+            DifferenceCause::Shape if agreement.at_infinite_dof => format!(
+                "The cause is the shape of a distribution or a model that is not linear: also with \
+                 infinite degrees of freedom the ends differ by {difference} % of U."
+            ),
+            DifferenceCause::Shape => format!(
+                "The cause is the shape of a distribution or a model that is not linear: the ends \
+                 differ by {difference} % of U."
+            ),
+        }
+    });
+    let is_of_trials =
+        Stated::of(figures, settings).is_some_and(|stated| stated.basis == Basis::Shortest);
+    let taken = match is_of_trials {
+        true => {
+            let shortest = monte_carlo.stated_interval().shortest;
+            let kind = if shortest { "shortest" } else { "symmetric" };
+            format!("Take the {kind} Monte Carlo interval.")
+        }
+        false => "U is stated by the law of propagation (EA-4/02).".to_owned(),
+    };
+    cause.into_iter().chain([taken]).collect::<Vec<_>>().join(" ")
 }
 
 /// How few the trials of saved results among the inputs are, where there are fewer than here.

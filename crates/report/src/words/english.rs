@@ -57,6 +57,21 @@ const EVALUATION: Sentences = &[
     ("no-variance.no-expectation", "`{name}`{at}: an input is drawn from a t distribution with {dof} degrees \
         of freedom, which has no expectation and no variance, so the trials have no estimate and no standard \
         uncertainty; the coverage intervals stand, and the value is the estimate by the law of propagation"),
+    ("stated-by.gum", "`{name}`{at}: U is stated by the law of propagation, as `statement` asks"),
+    ("stated-by.monte-carlo", "`{name}`{at}: U is stated by the interval of the trials, as `statement` asks"),
+    ("stated-by.few-dof", "`{name}`{at}: U is stated by the law of propagation, with k from the effective \
+        degrees of freedom (EA-4/02 M:2022): with infinite degrees of freedom its endpoints differ from those \
+        of the trials by {difference} % of U. `--statement monte-carlo` states the interval of the trials"),
+    ("stated-by.near", "`{name}`{at}: U is stated by the law of propagation: its endpoints differ from those of \
+        the trials by {difference} % of U, which is within {allowed} %. `--statement monte-carlo` states the \
+        interval of the trials"),
+    ("stated-by.shape", "`{name}`{at}: U is stated by the interval of the trials: the endpoints of the law of \
+        propagation differ from it by {difference} % of U, more than {allowed} %, because of the shape of a \
+        distribution or a model that is not linear. `--statement gum` states the law of propagation"),
+    ("stated-by.shape-few-dof", "`{name}`{at}: U is stated by the interval of the trials: also with infinite \
+        degrees of freedom the endpoints of the law of propagation differ from the trials by {difference} % of \
+        U, more than {allowed} %, because of the shape of a distribution or a model that is not linear. \
+        `--statement gum` states the law of propagation"),
     ("few-dof", "`{name}`{at}: the Monte Carlo standard uncertainty {difference} because some inputs have few \
         degrees of freedom{dof}: their t distributions have a larger standard deviation, which accounts for \
         {alone}. {conclusion}"),

@@ -59,6 +59,23 @@ const EVALUATION: Sentences = &[
         Freiheitsgraden gezogen, die keinen Erwartungswert und keine Varianz hat, so dass die Versuche keinen \
         Schätzwert und keine Standardunsicherheit haben; die Überdeckungsintervalle gelten, und der Wert ist \
         der Schätzwert nach dem Fortpflanzungsgesetz"),
+    ("stated-by.gum", "`{name}`{at}: U wird nach dem Fortpflanzungsgesetz angegeben, wie `statement` verlangt"),
+    ("stated-by.monte-carlo", "`{name}`{at}: U wird nach dem Intervall der Monte-Carlo-Versuche angegeben, wie \
+        `statement` verlangt"),
+    ("stated-by.few-dof", "`{name}`{at}: U wird nach dem Fortpflanzungsgesetz angegeben, mit k aus den effektiven \
+        Freiheitsgraden (EA-4/02 M:2022): Mit unendlich vielen Freiheitsgraden weichen seine Grenzen um \
+        {difference} % von U von denen der Versuche ab. `--statement monte-carlo` gibt das Intervall der \
+        Versuche an"),
+    ("stated-by.near", "`{name}`{at}: U wird nach dem Fortpflanzungsgesetz angegeben: Seine Grenzen weichen um \
+        {difference} % von U von denen der Versuche ab, erlaubt sind {allowed} %. `--statement monte-carlo` gibt \
+        das Intervall der Versuche an"),
+    ("stated-by.shape", "`{name}`{at}: U wird nach dem Intervall der Versuche angegeben: Die Grenzen des \
+        Fortpflanzungsgesetzes weichen um {difference} % von U davon ab, mehr als {allowed} %, wegen der Form \
+        einer Verteilung oder eines nichtlinearen Modells. `--statement gum` gibt das Fortpflanzungsgesetz an"),
+    ("stated-by.shape-few-dof", "`{name}`{at}: U wird nach dem Intervall der Versuche angegeben: Auch mit unendlich \
+        vielen Freiheitsgraden weichen die Grenzen des Fortpflanzungsgesetzes um {difference} % von U davon ab, \
+        mehr als {allowed} %, wegen der Form einer Verteilung oder eines nichtlinearen Modells. `--statement gum` \
+        gibt das Fortpflanzungsgesetz an"),
     ("few-dof", "`{name}`{at}: Die Standardunsicherheit der Monte-Carlo-Methode {difference}, weil einige \
         Eingangsgrößen wenige Freiheitsgrade haben{dof}: Ihre t-Verteilungen haben eine größere \
         Standardabweichung, was {alone} ausmacht. {conclusion}"),

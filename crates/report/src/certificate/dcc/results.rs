@@ -19,6 +19,7 @@ use crate::table::in_unit;
 use gumption_analysis::certificate::Basis;
 use gumption_analysis::certificate::contents::{Language, Localized, StatedFunction};
 use gumption_engine::model::Quantity;
+use gumption_engine::propagate::DifferenceCause;
 use gumption_units::Unit;
 
 pub(super) fn write(xml: &mut Xml, report: &CertificateReport<'_>, languages: &[Language]) {
@@ -255,10 +256,13 @@ fn probability(row: &StatedRow<'_>) -> String {
     }
 }
 
-/// The distribution to which the factor belongs; `None` if the trials contradict it, even if its
-/// interval has the same digits as theirs.
+/// The distribution to which the factor belongs; `None` if the trials contradict it other than by
+/// few degrees of freedom, for which a t distribution allows.
 fn distribution(row: &StatedRow<'_>) -> Option<&'static str> {
-    let is_contradicted = row.found.validation.is_some_and(|v| v.gum_valid == Some(false));
+    let is_refuted = row.found.validation.is_some_and(|v| v.gum_valid == Some(false));
+    let allowed = row.asked.task.settings.statement_tolerance;
+    let cause = row.found.agreement.map(|agreement| agreement.cause(allowed));
+    let is_contradicted = is_refuted && cause != Some(DifferenceCause::DegreesOfFreedom);
     match row.statement.basis {
         Basis::Normal | Basis::Student if is_contradicted && !row.is_raised() => None,
         Basis::Normal => Some("normal"),

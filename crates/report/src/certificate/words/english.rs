@@ -57,11 +57,11 @@ pub(super) const WORDS: Words = Words {
     agreed: "The expanded uncertainty U is the standard uncertainty multiplied by the agreed \
         coverage factor k = {k}. The coverage probability that is stated with it follows from \
         the t distribution with the effective degrees of freedom ν_eff.",
-    shortest: "The result is not normally distributed. The stated coverage interval is the shortest one \
+    shortest: "The stated coverage interval is the shortest one \
         with a coverage probability of {p}, found by the Monte Carlo method (JCGM 101:2008). U is the \
-        distance of the value from its farther end, and k is U over the standard uncertainty, to the \
+        distance of the value from its farther endpoint. k is U divided by the standard uncertainty, to the \
         digits that the trials justify.",
-    without_trials: "The result is not normally distributed. The stated coverage interval has a \
+    without_trials: "The stated coverage interval has a \
         coverage probability of {p}; it was found by the propagation of distributions (JCGM 101:2008, \
         clause 5) without random trials, and is the shortest one, or the symmetric one where that is \
         longer by less than 1 %. U is the distance of the value from its farther end, and k is U over \

@@ -57,11 +57,11 @@ pub(super) const WORDS: Words = Words {
     agreed: "L'incertitude élargie U est l'incertitude-type multipliée par le facteur \
         d'élargissement convenu k = {k}. La probabilité de couverture déclarée avec elle découle \
         de la loi de Student avec les degrés de liberté effectifs ν_eff.",
-    shortest: "Le résultat ne suit pas une loi normale. L'intervalle élargi déclaré est le plus court \
+    shortest: "L'intervalle élargi déclaré est le plus court \
         ayant une probabilité de couverture de {p}, trouvé par la méthode de Monte-Carlo (JCGM 101:2008). U \
         est la distance de la valeur à l'extrémité la plus éloignée, et k est U divisé par \
         l'incertitude-type, avec les chiffres que les tirages justifient.",
-    without_trials: "Le résultat ne suit pas une loi normale. L'intervalle élargi déclaré a une \
+    without_trials: "L'intervalle élargi déclaré a une \
         probabilité de couverture de {p} ; il a été trouvé par la propagation de distributions (JCGM \
         101:2008, article 5) sans tirages aléatoires, et c'est le plus court, ou bien le symétrique là \
         où il est plus long de moins de 1 %. U est la distance de la valeur à l'extrémité la plus \

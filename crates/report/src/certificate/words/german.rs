@@ -60,12 +60,12 @@ pub(super) const WORDS: Words = Words {
         mit dem vereinbarten Erweiterungsfaktor k = {k}. Die jeweils angegebene \
         Überdeckungswahrscheinlichkeit folgt aus der t-Verteilung mit den effektiven \
         Freiheitsgraden ν_eff.",
-    shortest: "Das Ergebnis ist nicht normalverteilt. Das angegebene \
+    shortest: "Das angegebene \
         Überdeckungsintervall ist das kürzeste mit einer Überdeckungswahrscheinlichkeit von {p}, ermittelt mit dem \
         Monte-Carlo-Verfahren (JCGM 101:2008). U ist der Abstand des Werts vom weiter entfernten Ende, \
         und k ist U geteilt durch die Standardmessunsicherheit, auf die Stellen, die die Versuche \
         hergeben.",
-    without_trials: "Das Ergebnis ist nicht normalverteilt. Das angegebene Überdeckungsintervall \
+    without_trials: "Das angegebene Überdeckungsintervall \
         hat eine Überdeckungswahrscheinlichkeit von {p}; es wurde durch Fortpflanzung der \
         Verteilungen (JCGM 101:2008, Abschnitt 5) ohne Zufallsversuche ermittelt und ist das kürzeste, \
         oder das symmetrische, wo dieses um weniger als 1 % länger ist. U ist der Abstand des Werts vom \

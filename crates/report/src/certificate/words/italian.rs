@@ -57,11 +57,11 @@ pub(super) const WORDS: Words = Words {
     agreed: "L'incertezza estesa U è l'incertezza tipo moltiplicata per il fattore di copertura \
         concordato k = {k}. La probabilità di copertura dichiarata con essa segue dalla \
         distribuzione t con i gradi di libertà effettivi ν_eff.",
-    shortest: "Il risultato non ha distribuzione normale. L'intervallo di copertura dichiarato è il più corto \
+    shortest: "L'intervallo di copertura dichiarato è il più corto \
         con una probabilità di copertura di {p}, trovato con il metodo Monte Carlo (JCGM 101:2008). U è la \
         distanza del valore dall'estremo più lontano, e k è il rapporto fra U e l'incertezza tipo, con le \
         cifre che le prove Monte Carlo giustificano.",
-    without_trials: "Il risultato non ha distribuzione normale. L'intervallo di copertura dichiarato ha una \
+    without_trials: "L'intervallo di copertura dichiarato ha una \
         probabilità di copertura di {p}; è stato trovato con la propagazione delle distribuzioni (JCGM \
         101:2008, punto 5) senza prove casuali, ed è il più corto, oppure quello simmetrico dove questo \
         è più lungo di meno dell'1 %. U è la distanza del valore dall'estremo più lontano, e k è il \
