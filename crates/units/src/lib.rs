@@ -298,6 +298,22 @@ impl Unit {
         self.flavour == Flavour::Relative
     }
 
+    /// The unit in which differences of values and uncertainties are stated: `dB` for levels with a
+    /// reference such as `dBm`, otherwise the unit itself.
+    ///
+    /// ```
+    /// use gumption_units::Unit;
+    ///
+    /// assert_eq!(Unit::parse("dBm")?.of_differences().text(), "dB");
+    /// assert_eq!(Unit::parse("degC")?.of_differences().text(), "degC");
+    /// # Ok::<(), gumption_units::UnitError>(())
+    /// ```
+    #[must_use]
+    pub fn of_differences(&self) -> Self {
+        let decibel = Self::parse("dB").ok();
+        decibel.filter(|_| self.has_reference()).unwrap_or_else(|| self.clone())
+    }
+
     /// A value in this unit, converted to the coherent SI unit. Degrees Celsius are not shifted.
     ///
     /// Rounded once if the size of the unit is a quotient of moderate integers, as for `mm` or

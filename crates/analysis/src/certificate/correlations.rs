@@ -18,6 +18,16 @@ use gumption_engine::task::{Row, Sharing};
 /// An unknown value: model file, input, and a text that distinguishes values of the same input.
 type Key = (Arc<str>, Arc<str>, String);
 
+/// How the rows of a certificate vary together.
+pub(super) struct RowCorrelations {
+    /// The matrix of the coefficients.
+    pub(super) coefficients: Vec<Vec<Option<f64>>>,
+    /// The standard uncertainties to which they belong.
+    pub(super) spreads: Vec<Option<f64>>,
+    /// The names of the inputs with one unknown value for several rows.
+    pub(super) shared_inputs: Vec<String>,
+}
+
 /// The matrix of the correlation coefficients between all rows, and the standard uncertainties to
 /// which they belong. A row that is `raised` to the laboratory's capability has the standard
 /// uncertainty of the capability if that is larger; no other row shares the added part.
@@ -26,7 +36,7 @@ pub(super) fn between(
     evaluations: &[Evaluation],
     digests: &[Arc<str>],
     raised: &[Option<f64>],
-) -> (Vec<Vec<Option<f64>>>, Vec<Option<f64>>) {
+) -> RowCorrelations {
     let own = own_roots_of(certificate, digests);
     let (places, links) = Default::default();
     let mut unknowns = Unknowns { certificate, own, places, links };
@@ -57,8 +67,9 @@ pub(super) fn between(
     let count = parts.len();
     // both halves of the matrix from the same sum
     let row = |i: usize| (0..count).map(|j| coefficient(i.min(j), i.max(j))).collect();
-    let matrix = (0..count).map(row).collect();
-    (matrix, spread)
+    let coefficients = (0..count).map(row).collect();
+    let shared_inputs = unknowns.shared_by(&parts);
+    RowCorrelations { coefficients, spreads: spread, shared_inputs }
 }
 
 /// Contributions c u to a result, by unknown value.
@@ -111,6 +122,24 @@ impl Unknowns<'_> {
             Some(parts)
         });
         Some(parts.collect())
+    }
+
+    /// The names of the inputs to which several rows owe a contribution.
+    fn shared_by(&self, parts: &[Option<ContributionsByValue>]) -> Vec<String> {
+        let owe = |place: usize| {
+            let parts = parts.iter().flatten();
+            parts.filter(|part| part.get(&place).is_some_and(|part| *part != 0.0)).count()
+        };
+        let shared = self.places.iter().filter(|(_, place)| owe(**place) > 1);
+        let names: BTreeMap<usize, &str> =
+            shared.map(|((_, name, _), place)| (*place, &**name)).collect();
+        let mut found: Vec<String> = Vec::new();
+        for name in names.into_values().filter(|name| !name.is_empty()) {
+            if !found.iter().any(|known| known == name) {
+                found.push(name.to_owned());
+            }
+        }
+        found
     }
 
     fn covariance(&self, a: &ContributionsByValue, b: &ContributionsByValue) -> f64 {

@@ -3,7 +3,7 @@
 use std::fmt;
 use std::sync::Arc;
 
-use super::correlations;
+use super::correlations::{self, RowCorrelations};
 use super::statement::{self, Statement, StatementRules};
 use crate::certificate::contents::Certificate;
 use gumption_engine::propagate::{Control, Evaluation, EvaluationError, evaluate};
@@ -23,6 +23,8 @@ pub struct Issued {
     /// The standard uncertainties to which the coefficients belong: by the law of propagation, or
     /// the stated one for a row raised to the laboratory's capability.
     pub spreads: Vec<Option<f64>>,
+    /// The names of the inputs that are one unknown value of two rows or more, in order.
+    pub shared_inputs: Vec<String>,
     /// Whether the evaluation was stopped before all trials were drawn.
     pub stopped: bool,
 }
@@ -118,7 +120,8 @@ pub fn issue(
         limit.map(|_| statement.standard_uncertainty)
     });
     let raised: Vec<Option<f64>> = raised.collect();
-    let (correlations, spreads) =
+    let RowCorrelations { coefficients, spreads, shared_inputs } =
         correlations::between(certificate, &evaluations, digests, &raised);
-    Ok(Issued { evaluations, statements, correlations, spreads, stopped })
+    let correlations = coefficients;
+    Ok(Issued { evaluations, statements, correlations, spreads, shared_inputs, stopped })
 }

@@ -123,7 +123,7 @@ pub(super) fn at_infinite_dof(
     let control = Control { progress: None, ..*control };
     let probability = settings.coverage.probability();
     let most = match settings.trials {
-        Trials::Fixed(asked) => asked.max(FIRST).min(MOST),
+        Trials::Fixed(asked) => asked.clamp(FIRST, MOST),
         Trials::Adaptive => MOST,
     };
     let mut count = FIRST;

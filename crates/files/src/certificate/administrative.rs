@@ -44,7 +44,7 @@ pub(super) fn read(root: &Object<'_>) -> Option<AdministrativeData> {
 }
 
 /// A text; one without a letter says nothing.
-fn owned(object: &Object<'_>, key: &str) -> Option<String> {
+pub(super) fn owned(object: &Object<'_>, key: &str) -> Option<String> {
     object.text(key).filter(|text| !text.trim().is_empty()).map(str::to_owned)
 }
 

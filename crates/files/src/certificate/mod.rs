@@ -1,6 +1,8 @@
 //! A certificate file: what is to be stated, of which models, in which form.
 
 mod administrative;
+mod layout;
+mod letterhead;
 mod rows;
 
 use std::collections::BTreeMap;
@@ -161,9 +163,13 @@ fn certificate<'a>(
     let coverage = settings::coverage(&root);
     let equations = root.truth("equations").unwrap_or(true);
     let trials = root.get("monte_carlo").map(|_| settings::read(&root));
+    let tables = layout::tables(&root);
+    let letterhead = letterhead::read(&root, folder);
+    let correlations = root.truth("correlations").unwrap_or(false);
     let mut rows = CertificateRows::new(
         root.log,
         (files, folder),
+        tables.iter().map(|table| table.name.clone()).collect(),
         Asking {
             coverage,
             digits: u32::try_from(digits).unwrap_or(2),
@@ -196,6 +202,7 @@ fn certificate<'a>(
             format!("`{name}` is in `shared_inputs` and in `separate_inputs`; take it out of one");
         root.log.report(span, DiagnosticKind::Certificate { reason });
     }
+    let layout = rows.layout(tables);
     let rows::Read { evaluations, lines, functions, models, warnings, places } = rows.finish()?;
     let certificate = Certificate {
         administrative: administrative?,
@@ -208,6 +215,9 @@ fn certificate<'a>(
         equations,
         evaluations,
         lines,
+        layout,
+        letterhead,
+        correlations,
         functions,
         shown: shown.into_iter().map(|(name, _)| name).collect(),
         shared: shared.into_keys().collect(),

@@ -14,9 +14,10 @@ use super::super::overrides::Override;
 use super::super::scopes::ConditionSet;
 use super::super::settings;
 use super::administrative::localized;
+use super::layout::{self, OpenTable};
 use super::{Asking, CertifiedModel};
 use crate::open::{is_no_object, text};
-use gumption_analysis::certificate::contents::{Asked, Line, StatedFunction};
+use gumption_analysis::certificate::contents::{Asked, LayoutTable, Line, StatedFunction};
 use gumption_engine::model::{Capability, Quantity};
 use gumption_engine::task::{Task, Warning};
 use gumption_text::json::{Json, Member, Node};
@@ -63,6 +64,8 @@ pub(super) struct CertificateRows<'a> {
     log: &'a Collector,
     /// What reads the model files, and where these are looked for.
     files_in: (Context<'a>, Folder<'a>),
+    /// The names of the tables.
+    tables: Vec<Option<String>>,
     asking: Asking,
     /// The model files without replacements, by name; `None` after a mistake.
     files: BTreeMap<String, Option<usize>>,
@@ -78,11 +81,13 @@ impl<'a> CertificateRows<'a> {
     pub(super) fn new(
         log: &'a Collector,
         files_in: (Context<'a>, Folder<'a>),
+        tables: Vec<Option<String>>,
         asking: Asking,
     ) -> Self {
         Self {
             log,
             files_in,
+            tables,
             asking,
             files: BTreeMap::new(),
             models: Vec::new(),
@@ -166,6 +171,7 @@ impl<'a> CertificateRows<'a> {
             self.log.report(&output.value.span, diagnostic);
             return None;
         };
+        let table = layout::chosen(&row, &self.tables)?;
         let (evaluation, rows) = self.evaluation(&row, file, name)?;
         let quantity = self.evaluations[evaluation].task.model.outputs[place].clone();
         let unit = &quantity.quantity.unit;
@@ -208,6 +214,7 @@ impl<'a> CertificateRows<'a> {
                 evaluation,
                 row: at,
                 output: place,
+                table,
                 label,
                 nominal,
                 capability,
@@ -408,8 +415,7 @@ impl<'a> CertificateRows<'a> {
                 return None;
             }
         };
-        let Asked { task, .. } = &self.evaluations[evaluation];
-        let Some((value, of)) = value_of(task, row, name) else {
+        let Some((value, of)) = self.evaluations[evaluation].value(row, name) else {
             return refuse(format!(
                 "there is no condition and no input `{name}` to take the nominal value from"
             ));
@@ -457,6 +463,14 @@ impl<'a> CertificateRows<'a> {
         }
     }
 
+    /// The columns of the tables; none where an error was reported.
+    pub(super) fn layout(&self, tables: Vec<OpenTable<'_>>) -> Vec<LayoutTable> {
+        match self.log.is_clean() {
+            true => layout::layout(tables, &self.lines, &self.evaluations),
+            false => Vec::new(),
+        }
+    }
+
     /// What was read, with only those rows of conditions that are asked for; `None` after a mistake.
     pub(super) fn finish(mut self) -> Option<Read> {
         if !self.log.is_clean() {
@@ -484,21 +498,4 @@ impl<'a> CertificateRows<'a> {
 /// Whether two values of a condition are the same but for rounding.
 fn is_same(a: f64, b: f64) -> bool {
     (a - b).abs() <= 1e-9 * a.abs().max(b.abs())
-}
-
-/// The value of a condition, or the estimate of an input, in a row; with its unit.
-fn value_of<'t>(task: &'t Task, row: usize, name: &str) -> Option<(f64, &'t Unit)> {
-    let at = task.rows.get(row)?;
-    if let Some(place) = task.model.conditions.iter().position(|c| c.name == name) {
-        return Some((*at.conditions.get(place)?, &task.model.conditions[place].unit));
-    }
-    let mut first = 0;
-    for input in &task.model.inputs {
-        if input.quantity.name == name {
-            let parts = at.distributions.get(first..first + input.parts)?;
-            return Some((parts.iter().map(|d| d.mean()).sum(), &input.quantity.unit));
-        }
-        first += input.parts;
-    }
-    None
 }

@@ -3,7 +3,7 @@
 use super::node::{With, object, reference, texts};
 use super::{Key, closed, closed_of, described, keys, referenced, text_of};
 use gumption_analysis::certificate::contents::{
-    DecimalMark, Language, PerformanceLocation, Rounding,
+    ColumnContent, DecimalMark, Language, PerformanceLocation, Rounding,
 };
 use serde_json::Value;
 
@@ -19,6 +19,10 @@ pub(super) fn definitions() -> Vec<(String, Value)> {
                 &["model", "fit"],
             ),
         ),
+        ("layout", closed("The tables of a certificate.", LAYOUT, &[])),
+        ("layout-table", closed("A table of results.", LAYOUT_TABLE, &["name", "columns"])),
+        ("layout-column", closed("A column of a table.", LAYOUT_COLUMN, &[])),
+        ("letterhead", closed("The head of the first page.", LETTERHEAD, &[])),
         ("device", device()),
         ("party", party()),
         ("localized", localized()),
@@ -105,6 +109,9 @@ pub(crate) const CERTIFICATE: &[Key] = keys![
     "statement" => referenced("statement", "Which method gives U, for all rows; `auto` unless the model \
                                             files say otherwise."),
     "statement_tolerance" => referenced("statement-tolerance", "Tolerance of `auto`, for all rows."),
+    "layout" => referenced("layout", "The tables of the results; one with the usual columns unless given."),
+    "letterhead" => referenced("letterhead", "Pictures and accreditation at the head of the first page."),
+    "correlations" => described("boolean", "State the correlation coefficients of the rows. False unless given."),
     "monte_carlo" => referenced("monte-carlo", "Trials and seed of all models, in place of their own."),
     "conditions" => names("Conditions that the table shows; all of them unless given."),
     "shared_inputs" => names("Inputs that are one and the same quantity in all model files."),
@@ -147,6 +154,54 @@ fn nominal() -> Value {
     )
 }
 
+/// Keys of a layout: the columns of its only table, or several tables.
+pub(crate) const LAYOUT: &[Key] = keys![
+    "title" => referenced("localized", "What stands above the table."),
+    "columns" => columns(),
+    "tables" => described("array", "Several tables; rows choose theirs by `table`.")
+                .with("items", reference("layout-table"))
+                .with("minItems", 1),
+];
+
+/// Keys of a table of a layout.
+pub(crate) const LAYOUT_TABLE: &[Key] = keys![
+    "name" => text_of("The name by which rows choose the table."),
+    "title" => referenced("localized", "What stands above the table."),
+    "columns" => columns(),
+];
+
+/// Keys of a column.
+pub(crate) const LAYOUT_COLUMN: &[Key] = keys![
+    "quantity" => text_of("An output, an input or a condition; for an output's U or k it can be left out if the table has one output."),
+    "show" => described("string", "What the column shows of an output; `value` unless given.")
+                .with("enum", texts(ColumnContent::ALL.map(ColumnContent::name))),
+    "heading" => referenced("localized", "What stands above it instead of the name."),
+    "unit" => text_of("The unit; for `U` also `%`, `ppm` or `µΩ/Ω`: U relative to the value."),
+    "relative_to" => text_of("The quantity to whose value U is relative; that of the column unless given."),
+    "decimals" => described("integer", "Number of decimals of an input or a condition.")
+                .with("minimum", 0)
+                .with("maximum", 15),
+];
+
+/// Keys of a letterhead.
+pub(crate) const LETTERHEAD: &[Key] = keys![
+    "logo" => referenced("file", "Logo of the laboratory, PNG or SVG."),
+    "accreditation_mark" => referenced("file", "Mark of the accreditation body, PNG or SVG."),
+    "accreditation_number" => text_of("Number of the accreditation."),
+    "accreditation" => referenced("localized", "A text about the accreditation."),
+];
+
+fn columns() -> Value {
+    let text = text_of(
+        "A quantity, `E`; or what is shown of an output: `U(E)`, `k(E)`, `limits(E)`, `decision(E)`; \
+         without the name if the table has one output.",
+    );
+    let kinds = vec![text, reference("layout-column")];
+    described("array", "The columns, in order.")
+        .with("items", object([("anyOf", Value::from(kinds))]))
+        .with("minItems", 1)
+}
+
 /// Keys of a calibration function of a certificate.
 pub(crate) const CERTIFICATE_FUNCTION: &[Key] = keys![
     "model" => referenced("file", "The model file."),
@@ -158,6 +213,7 @@ pub(crate) const CERTIFICATE_FUNCTION: &[Key] = keys![
 pub(crate) const CERTIFICATE_ROW: &[Key] = keys![
     "model" => referenced("file", "The model file."),
     "output" => text_of("The output that is stated."),
+    "table" => text_of("The table of the layout in which the row stands, if there are several."),
     "set" => replaced(),
     "nominal" => nominal(),
     "statement" => referenced("statement", "Which method gives U of this row."),

@@ -20,7 +20,8 @@ use serde_json::Value;
 use crate::result;
 pub(crate) use case::{EFFECT, OBSERVATIONS, OBSERVED, PRIOR, SIMULATOR};
 pub(crate) use certificate::{
-    CERTIFICATE, CERTIFICATE_FUNCTION, CERTIFICATE_KEYS, CERTIFICATE_ROW, DEVICE, PARTY,
+    CERTIFICATE, CERTIFICATE_FUNCTION, CERTIFICATE_KEYS, CERTIFICATE_ROW, DEVICE, LAYOUT,
+    LAYOUT_COLUMN, LAYOUT_TABLE, LETTERHEAD, PARTY,
 };
 pub(crate) use check::{check, check_names};
 pub(crate) use costs::{COST, COSTS, COSTS_KEY, OFFER};

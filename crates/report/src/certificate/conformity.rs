@@ -2,6 +2,7 @@
 //! 7.8.6.2: which results, which specification, which rule).
 
 use super::CertificateReport;
+use super::layout;
 use super::sentences::{SentenceLanguage, about};
 use super::stated::{self, StatedRow};
 use super::units::printed;
@@ -27,6 +28,57 @@ pub(super) fn statements(report: &CertificateReport<'_>, of: SentenceLanguage) -
     rows.iter().filter_map(one).collect()
 }
 
+/// The statements of a page: one for each row with a tolerance, and the decision rule alone for rows
+/// whose table shows limits and decision.
+pub(super) fn on_page(report: &CertificateReport<'_>, of: SentenceLanguage) -> Vec<String> {
+    let rows = stated::rows(report);
+    let mut rules: Vec<(String, Vec<usize>)> = Vec::new();
+    let mut alone: Vec<String> = Vec::new();
+    for row in &rows {
+        let Some(found) = row.conformity() else { continue };
+        if !layout::shows_decision(report, row) {
+            alone.push(about(&[row.number], of.words()) + &said(row, &found, of));
+            continue;
+        }
+        let parts = specification(row, of).into_iter().chain([rule(row, &found, of)]);
+        let text = parts.chain(agreed(row, of)).collect::<Vec<_>>().join(" ");
+        match rules.iter_mut().find(|(known, _)| *known == text) {
+            Some((_, numbers)) => numbers.push(row.number),
+            None => rules.push((text, vec![row.number])),
+        }
+    }
+    let decided = rules.iter().map(|(_, numbers)| numbers.len()).sum::<usize>();
+    let of_all = rules.len() == 1 && decided == rows.len();
+    let rules = rules.into_iter().map(|(text, numbers)| match of_all {
+        true => text,
+        false => about(&numbers, of.words()) + &text,
+    });
+    rules.chain(alone).collect()
+}
+
+/// The specification to which the tolerance of a row belongs, if it has a name.
+fn specification(row: &StatedRow<'_>, of: SentenceLanguage) -> Option<String> {
+    let output = row.asked.task.model.outputs.get(row.line.output)?;
+    let name = output.specification.as_deref()?;
+    Some(of.words().specification.replace("{name}", &plain(name)))
+}
+
+/// That the rule was agreed with the customer, if it was.
+fn agreed(row: &StatedRow<'_>, of: SentenceLanguage) -> Option<String> {
+    let output = row.asked.task.model.outputs.get(row.line.output)?;
+    output.rule_agreed.then(|| of.words().rule_agreed.to_owned())
+}
+
+/// A decision in a few words, for a table.
+pub(super) fn decided(found: &Conformity, words: &Words) -> &'static str {
+    let [conforms, not, not_shown] = words.decided;
+    match (found.conforms, found.tolerance.holds(found.estimate)) {
+        (true, _) => conforms,
+        (false, false) => not,
+        (false, true) => not_shown,
+    }
+}
+
 /// Whether each row with a tolerance conforms.
 pub(super) fn decisions(report: &CertificateReport<'_>) -> Vec<bool> {
     let rows = stated::rows(report);
@@ -41,11 +93,7 @@ fn said(row: &StatedRow<'_>, found: &Conformity, of: SentenceLanguage) -> String
     let trials = row.found.monte_carlo.as_ref().filter(|_| !row.is_raised());
     let trials = trials.map(|figures| figures.trials);
     let probability = percent(percent_of(found, found.probability, trials), of);
-    let specification = row.asked.task.model.outputs.get(row.line.output);
-    let specification = specification.and_then(|output| output.specification.as_deref());
-    let specification =
-        specification.map(|name| words.specification.replace("{name}", &plain(name)));
-    let mut parts: Vec<String> = specification.into_iter().collect();
+    let mut parts: Vec<String> = specification(row, of).into_iter().collect();
     parts.push(
         decision(found, words)
             .replace("{limits}", &of.in_marks(&limits(row, &found.tolerance, None, words))),
@@ -54,10 +102,7 @@ fn said(row: &StatedRow<'_>, found: &Conformity, of: SentenceLanguage) -> String
     parts.push(chance.replace("{p}", &probability));
     parts.extend(with_prior(row, found, (trials, of)));
     parts.push(rule(row, found, of));
-    let output = row.asked.task.model.outputs.get(row.line.output);
-    if output.is_some_and(|output| output.rule_agreed) {
-        parts.push(words.rule_agreed.to_owned());
-    }
+    parts.extend(agreed(row, of));
     parts.extend(found.global.map(|risks| {
         let share = |risk: f64| of.in_marks(&significant(100.0 * risk, 3));
         let said = words.global_risks.replace("{a}", &share(risks.false_acceptance));

@@ -1,10 +1,11 @@
 //! The certificate as a document.
 
+use super::layout::TitledSheet;
 use super::sentences::{SentenceLanguage, SentencePlace};
 use super::words::{self, Words, beside};
 use super::{
-    CertificateReport, administrative, conformity, file_name, functions, measurement, sentences,
-    sheets, stated, trials_made,
+    CertificateReport, administrative, conformity, file_name, functions, layout, measurement,
+    sentences, sheets, stated, trials_made,
 };
 use crate::document::{Block, Document, Foot};
 use crate::plain;
@@ -27,7 +28,12 @@ pub(super) fn of(report: &CertificateReport<'_>) -> Document {
         document.table(about);
     }
     document.section(beside(languages, |w| w.results));
-    document.table(sheets::results(report));
+    for TitledSheet { title, sheet } in layout::tables(report) {
+        if !title.is_empty() {
+            document.text(title);
+        }
+        document.table(sheet);
+    }
     document.section(beside(languages, |w| w.uncertainty));
     for of in SentenceLanguage::on_page(report) {
         document.text_in(
@@ -36,7 +42,7 @@ pub(super) fn of(report: &CertificateReport<'_>) -> Document {
         );
     }
     functions::sections(&mut document, report);
-    if sheets::are_correlated(report) {
+    if certificate.correlations && sheets::are_correlated(report) {
         document.section(beside(languages, |w| w.correlation));
         if certificate.lines.len() <= sheets::MOST_CORRELATED {
             document.table(sheets::correlations(report));
@@ -44,8 +50,14 @@ pub(super) fn of(report: &CertificateReport<'_>) -> Document {
             for language in languages {
                 let words = words::of(*language);
                 let more = if raised { words.correlated_raised } else { "" };
-                let said = format!("{} {more}", words.correlated);
-                document.text_in(language.code(), said.trim_end());
+                let shared: Vec<String> =
+                    report.issued.shared_inputs.iter().map(|name| plain(name)).collect();
+                let shared = gumption_units::listed(&shared, words.and);
+                let shared = words.shared.replace("{inputs}", &shared);
+                document.text_in(
+                    language.code(),
+                    format!("{} {shared} {more}", words.correlated).trim_end(),
+                );
             }
         } else {
             for language in languages {
@@ -58,7 +70,7 @@ pub(super) fn of(report: &CertificateReport<'_>) -> Document {
     if !conformity::decisions(report).is_empty() {
         document.section(beside(languages, |w| w.conformity));
         for of in SentenceLanguage::on_page(report) {
-            document.list_in(of.language.code(), conformity::statements(report, of));
+            document.list_in(of.language.code(), conformity::on_page(report, of));
         }
     }
     measurement::sections(&mut document, report);

@@ -7,6 +7,7 @@ mod dcc;
 mod document;
 mod functions;
 mod json;
+mod layout;
 mod measurement;
 mod regions;
 mod sentences;

@@ -10,6 +10,7 @@ use crate::plain;
 use crate::sheet::{Figure, Sheet};
 use gumption_engine::model::Quantity;
 use gumption_engine::number::elementary::log10;
+use gumption_units::Unit;
 
 /// Maximum number of rows for which a page shows the matrix of correlation coefficients.
 pub(super) const MOST_CORRELATED: usize = 12;
@@ -31,10 +32,15 @@ pub(super) fn results(report: &CertificateReport<'_>) -> Sheet {
     }
     sheet.figures(&header(|w| w.value), rows.iter().map(StatedRow::value));
     sheet.figures(&header(|w| w.expanded), rows.iter().map(StatedRow::expanded));
-    sheet.units(
-        &header(|w| w.unit),
-        rows.iter().map(|row| plain(printed(&row.quantity.unit).text())),
-    );
+    let unit = |unit: &Unit| plain(printed(unit).text());
+    let of_values = rows.iter().map(|row| unit(&row.quantity.unit));
+    sheet.units(&header(|w| w.unit), of_values);
+    // a level has another unit than its differences
+    if rows.iter().any(|row| row.quantity.unit.has_reference()) {
+        let of_expanded = rows.iter().map(|row| unit(&row.quantity.unit.of_differences()));
+        let header = format!("{} (U)", header(|w| w.unit));
+        sheet.units(&header, of_expanded);
+    }
     sheet.figures("k", rows.iter().map(StatedRow::factor));
     // degrees of freedom matter only if k follows from them
     if rows.iter().any(|row| !row.dof().text.is_empty()) {
@@ -69,7 +75,11 @@ fn conditions(
 ) {
     let named = |quantity: &Quantity| match plain(printed(&quantity.unit).text()).as_str() {
         "" | "1" => plain(&quantity.name),
-        unit => format!("{}\nin {unit}", plain(&quantity.name)),
+        unit => {
+            let unit =
+                stacked(&report.certificate.languages, |w| w.in_unit).replace("{unit}", unit);
+            format!("{}\n{unit}", plain(&quantity.name))
+        }
     };
     let mut names: Vec<String> = Vec::new();
     for (quantity, _) in rows.iter().flat_map(|row| row.shown(report)) {

@@ -2,10 +2,11 @@
 
 use std::io;
 
+use super::layout::TitledSheet;
 use super::sentences::{SentenceLanguage, SentencePlace};
 use super::words::beside;
 use super::{
-    CertificateReport, administrative, conformity, document, functions, sentences, sheets,
+    CertificateReport, administrative, conformity, document, functions, layout, sentences, sheets,
 };
 use crate::fits;
 use crate::workbook::{Book, failed};
@@ -28,13 +29,20 @@ pub fn xlsx(report: &CertificateReport<'_>) -> io::Result<Vec<u8>> {
             leaf.line(row, &format!("{name}: {text}"))?;
             row += 1;
         }
-        row = leaf.table(row + 1, &sheets::results(report))? + 1;
+        row += 1;
+        for TitledSheet { title, sheet } in layout::tables(report) {
+            if !title.is_empty() {
+                leaf.line(row, &title)?;
+                row += 1;
+            }
+            row = leaf.table(row, &sheet)? + 1;
+        }
         for of in SentenceLanguage::on_page(report) {
             for said in sentences::coverage(report, of, SentencePlace::Table) {
                 leaf.line(row, &said)?;
                 row += 1;
             }
-            for said in conformity::statements(report, of) {
+            for said in conformity::on_page(report, of) {
                 leaf.line(row, &said)?;
                 row += 1;
             }

@@ -13,6 +13,7 @@ pub(super) const WORDS: Words = Words {
     customer_number: "Customer's number",
     customer: "Customer",
     laboratory: "Laboratory",
+    accreditation: "Accreditation",
     code: "Laboratory code",
     responsible: "Responsible",
     calibrated: "Date of calibration",
@@ -40,6 +41,8 @@ pub(super) const WORDS: Words = Words {
     value: "value",
     expanded: "U",
     unit: "unit",
+    in_unit: "in {unit}",
+    limits_heading: "limits",
     probability: "p in %",
     low: "from",
     high: "to",
@@ -116,9 +119,11 @@ pub(super) const WORDS: Words = Words {
         the law of propagation, from which U_i / k_i may differ.",
     correlated_raised: "Where U is the laboratory's capability, u_i contains it, and what it \
         adds to the evaluated uncertainty is taken to be uncorrelated with the other rows.",
+    shared: "The rows share: {inputs}.",
     many: "Some of the {rows} rows share inputs; correlation coefficients, and the standard \
         uncertainties that they go with, are in the JSON answer and in the workbook.",
     conformity: "Conformity",
+    decided: ["conforms", "does not conform", "not shown"],
     decisions: [
         "The result conforms to the tolerance {limits}.",
         "The result does not conform to the tolerance {limits}.",

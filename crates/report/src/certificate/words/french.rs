@@ -13,6 +13,7 @@ pub(super) const WORDS: Words = Words {
     customer_number: "Numéro du client",
     customer: "Client",
     laboratory: "Laboratoire",
+    accreditation: "Accréditation",
     code: "Code du laboratoire",
     responsible: "Responsable",
     calibrated: "Date de l'étalonnage",
@@ -40,6 +41,8 @@ pub(super) const WORDS: Words = Words {
     value: "valeur",
     expanded: "U",
     unit: "unité",
+    in_unit: "en {unit}",
+    limits_heading: "limites",
     probability: "p en %",
     low: "de",
     high: "à",
@@ -119,10 +122,12 @@ pub(super) const WORDS: Words = Words {
         sont ceux de la loi de propagation, dont U_i / k_i peut différer.",
     correlated_raised: "Là où U est l'aptitude du laboratoire, u_i la contient, et ce qu'elle \
         ajoute à l'incertitude évaluée est supposé non corrélé avec les autres lignes.",
+    shared: "Les lignes ont en commun : {inputs}.",
     many: "Certaines des {rows} lignes ont des grandeurs d'entrée en commun ; les coefficients \
         de corrélation, et les incertitudes-types qui vont avec, sont dans la réponse JSON et \
         dans le classeur.",
     conformity: "Conformité",
+    decided: ["conforme", "non conforme", "non démontré"],
     decisions: [
         "Le résultat est conforme à la tolérance {limits}.",
         "Le résultat n'est pas conforme à la tolérance {limits}.",

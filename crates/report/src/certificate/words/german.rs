@@ -13,6 +13,7 @@ pub(super) const WORDS: Words = Words {
     customer_number: "Nummer des Auftraggebers",
     customer: "Auftraggeber",
     laboratory: "Laboratorium",
+    accreditation: "Akkreditierung",
     code: "Laborkennzeichen",
     responsible: "Verantwortlich",
     calibrated: "Datum der Kalibrierung",
@@ -40,6 +41,8 @@ pub(super) const WORDS: Words = Words {
     value: "Wert",
     expanded: "U",
     unit: "Einheit",
+    in_unit: "in {unit}",
+    limits_heading: "Grenzen",
     probability: "p in %",
     low: "von",
     high: "bis",
@@ -125,10 +128,12 @@ pub(super) const WORDS: Words = Words {
     correlated_raised: "Wo U die kleinste angebbare Messunsicherheit des Laboratoriums ist, ist \
         sie in u_i enthalten; was sie der ermittelten hinzufügt, gilt als unkorreliert mit den \
         anderen Zeilen.",
+    shared: "Gemeinsam haben die Zeilen: {inputs}.",
     many: "Einige der {rows} Zeilen haben gemeinsame Eingangsgrößen; Korrelationskoeffizienten \
         und die Standardmessunsicherheiten, zu denen sie gehören, stehen in der JSON-Ausgabe und \
         in der Arbeitsmappe.",
     conformity: "Konformität",
+    decided: ["konform", "nicht konform", "nicht nachgewiesen"],
     decisions: [
         "Das Ergebnis hält die Toleranz {limits} ein: konform.",
         "Das Ergebnis hält die Toleranz {limits} nicht ein: nicht konform.",

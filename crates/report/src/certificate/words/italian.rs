@@ -13,6 +13,7 @@ pub(super) const WORDS: Words = Words {
     customer_number: "Numero del cliente",
     customer: "Cliente",
     laboratory: "Laboratorio",
+    accreditation: "Accreditamento",
     code: "Codice del laboratorio",
     responsible: "Responsabile",
     calibrated: "Data della taratura",
@@ -40,6 +41,8 @@ pub(super) const WORDS: Words = Words {
     value: "valore",
     expanded: "U",
     unit: "unità",
+    in_unit: "in {unit}",
+    limits_heading: "limiti",
     probability: "p in %",
     low: "da",
     high: "a",
@@ -116,10 +119,12 @@ pub(super) const WORDS: Words = Words {
         propagazione, da cui U_i / k_i può differire.",
     correlated_raised: "Dove U è la capacità del laboratorio, u_i la contiene, e ciò che essa \
         aggiunge all'incertezza valutata si suppone non correlato con le altre righe.",
+    shared: "Le righe hanno in comune: {inputs}.",
     many: "Alcune delle {rows} righe hanno grandezze d'ingresso in comune; i coefficienti di \
         correlazione, e le incertezze tipo che vanno con essi, sono nella risposta JSON e nella \
         cartella di lavoro.",
     conformity: "Conformità",
+    decided: ["conforme", "non conforme", "non dimostrato"],
     decisions: [
         "Il risultato è conforme alla tolleranza {limits}.",
         "Il risultato non è conforme alla tolleranza {limits}.",

@@ -23,6 +23,7 @@ pub(super) struct Words {
     pub(super) customer_number: &'static str,
     pub(super) customer: &'static str,
     pub(super) laboratory: &'static str,
+    pub(super) accreditation: &'static str,
     pub(super) code: &'static str,
     pub(super) responsible: &'static str,
     pub(super) calibrated: &'static str,
@@ -47,6 +48,9 @@ pub(super) struct Words {
     pub(super) value: &'static str,
     pub(super) expanded: &'static str,
     pub(super) unit: &'static str,
+    /// `{unit}`
+    pub(super) in_unit: &'static str,
+    pub(super) limits_heading: &'static str,
     pub(super) probability: &'static str,
     pub(super) low: &'static str,
     pub(super) high: &'static str,
@@ -108,9 +112,13 @@ pub(super) struct Words {
     pub(super) correlation: &'static str,
     pub(super) correlated: &'static str,
     pub(super) correlated_raised: &'static str,
+    /// `{inputs}`: which inputs the rows share.
+    pub(super) shared: &'static str,
     /// `{rows}`: how many.
     pub(super) many: &'static str,
     pub(super) conformity: &'static str,
+    /// In a table: that a value conforms, that it does not, and that it is not shown to conform.
+    pub(super) decided: [&'static str; 3],
     /// That a value conforms to a tolerance, and that it does not: `{limits}`.
     pub(super) decisions: [&'static str; 2],
     /// That a value within the tolerance is rejected: it lies outside the acceptance limits, or
@@ -230,7 +238,7 @@ mod tests {
             marks.sort_unstable();
             marks
         }
-        let templates: [fn(&Words) -> &'static str; 31] = [
+        let templates: [fn(&Words) -> &'static str; 33] = [
             |w| w.period,
             |w| w.rows[0],
             |w| w.rows[1],
@@ -252,6 +260,8 @@ mod tests {
             |w| w.specification,
             |w| w.approximately,
             |w| w.many,
+            |w| w.shared,
+            |w| w.in_unit,
             |w| w.conforming,
             |w| w.all_the_same,
             |w| w.not_shown[0],
