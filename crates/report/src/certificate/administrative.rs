@@ -3,6 +3,7 @@
 use super::CertificateReport;
 use super::words::{self, Words, beside};
 use crate::answer::{list, object};
+use crate::document::Head;
 use crate::plain;
 use crate::sheet::Sheet;
 use gumption_analysis::certificate::contents::{Localized, Party, PerformanceLocation};
@@ -50,6 +51,7 @@ pub(super) fn lines(report: &CertificateReport<'_>) -> Vec<(String, String)> {
     add(|w| w.customer, of.customer.as_ref().map(party));
     add(|w| w.laboratory, of.laboratory.as_ref().map(party));
     add(|w| w.code, of.laboratory.as_ref().and_then(|l| l.code.clone()));
+    add(|w| w.accreditation, certificate.letterhead.accreditation_number.clone());
     add(|w| w.responsible, of.responsible.clone());
     let period = of.calibrated.as_ref().map(|[first, last]| match first == last {
         true => first.clone(),
@@ -72,6 +74,51 @@ pub(super) fn lines(report: &CertificateReport<'_>) -> Vec<(String, String)> {
     add(|w| w.method, of.method.as_ref().map(local));
     add(|w| w.traceability, of.traceability.as_ref().map(local));
     lines
+}
+
+/// The head of the first page, if the certificate has a letterhead.
+pub(super) fn head(report: &CertificateReport<'_>) -> Option<Head> {
+    let of = &report.certificate.letterhead;
+    let languages = report.certificate.languages.as_slice();
+    let has_picture = of.logo.is_some() || of.mark.is_some();
+    let has_text = of.accreditation_number.is_some() || of.accreditation.is_some();
+    if !has_picture && !has_text {
+        return None;
+    }
+    let laboratory = report.certificate.administrative.laboratory.as_ref();
+    let accreditation = beside(languages, |w| w.accreditation);
+    let number = of.accreditation_number.as_ref().map(|number| match &of.accreditation {
+        Some(_) => plain(number),
+        None => format!("{accreditation} {}", plain(number)),
+    });
+    let text = of.accreditation.as_ref().map(|text| plain(&text.all(languages).join(" / ")));
+    let name = laboratory.map(|party| plain(&party.name)).unwrap_or_default();
+    Some(Head {
+        logo: of.logo.clone(),
+        lines: laboratory.map(address_block).unwrap_or_default(),
+        mark: of.mark.clone(),
+        below_mark: text.into_iter().chain(number).collect(),
+        described: [name, accreditation],
+    })
+}
+
+/// Name, street, city, and ways of contact, line by line.
+fn address_block(party: &Party) -> Vec<String> {
+    let pair = |a: &Option<String>, b: &Option<String>| {
+        let words: Vec<&str> = [a, b].into_iter().flatten().map(String::as_str).collect();
+        words.join(" ")
+    };
+    let city = [pair(&party.post_code, &party.city), party.country.clone().unwrap_or_default()];
+    let city: Vec<String> = city.into_iter().filter(|part| !part.is_empty()).collect();
+    let contact: Vec<&str> =
+        [&party.phone, &party.email].into_iter().flatten().map(String::as_str).collect();
+    let lines = [
+        party.name.clone(),
+        pair(&party.street, &party.street_number),
+        city.join(", "),
+        contact.join(", "),
+    ];
+    lines.iter().map(|line| plain(line)).filter(|line| !line.is_empty()).collect()
 }
 
 /// The same for programs, by the keys of the certificate file, whatever its languages.
@@ -109,6 +156,7 @@ pub(super) fn for_programs(report: &CertificateReport<'_>) -> Value {
         ("device", device),
         ("customer", of.customer.as_ref().map(party)),
         ("laboratory", of.laboratory.as_ref().map(party)),
+        ("accreditation_number", text(&report.certificate.letterhead.accreditation_number)),
         ("responsible", text(&of.responsible)),
         ("receipt_date", text(&of.received)),
         ("calibration_date", of.calibrated.as_ref().map(days)),

@@ -20,6 +20,7 @@ pub(super) fn of(report: &CertificateReport<'_>) -> Document {
         title: administrative::title(report),
         language: languages.first().map_or("en", |language| language.code()),
         comma: certificate.decimal_mark == DecimalMark::Comma,
+        head: administrative::head(report),
         foot: Some(foot(report)),
         ..Document::default()
     };

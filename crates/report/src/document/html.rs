@@ -1,8 +1,11 @@
 //! A document as one HTML file that needs nothing else.
 
+use base64::Engine;
+use base64::engine::general_purpose::STANDARD;
+use gumption_analysis::certificate::contents::Picture;
 use maud::{Markup, html};
 
-use super::{Block, Document};
+use super::{Block, Document, Head};
 use crate::html::{FigureSize, bare_figure, figure, page_in, raised, table};
 
 /// Numbers of sections for which a page has a table of contents: fewer are visible at once, more do
@@ -13,6 +16,7 @@ const LISTED: std::ops::RangeInclusive<usize> = 8..=60;
 pub(crate) fn html(document: &Document) -> String {
     let mut counts = Counts::default();
     let body = html! {
+        @if let Some(head) = &document.head { (self::head(head)) }
         h1 { (document.title) }
         @for line in &document.subtitle { p.settings { (raised(line)) } }
         (contents(document))
@@ -104,5 +108,27 @@ fn block(block: &Block, comma: bool, counts: &mut Counts) -> Markup {
             p { (about) }
             pre { code { (text) } }
         },
+    }
+}
+
+/// The head as a part of an HTML page, with its pictures in it.
+fn head(of: &Head) -> Markup {
+    let picture = |picture: &Option<Picture>, about: &str| {
+        let picture = picture.as_ref()?;
+        let (kind, data) = (picture.format.media_type(), STANDARD.encode(&picture.bytes));
+        Some(html! { img src={ "data:" (kind) ";base64," (data) } alt=(about); })
+    };
+    let [logo, mark] = &of.described;
+    html! {
+        header.letterhead {
+            @if let Some(logo) = picture(&of.logo, logo) { div.logo { (logo) } }
+            address { @for line in &of.lines { span { (line) } } }
+            @if of.mark.is_some() || !of.below_mark.is_empty() {
+                div.accreditation {
+                    @if let Some(mark) = picture(&of.mark, mark) { (mark) }
+                    @for line in &of.below_mark { span { (line) } }
+                }
+            }
+        }
     }
 }

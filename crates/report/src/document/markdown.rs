@@ -23,7 +23,9 @@ const RULE: &str = r"\_\_\_\_\_\_\_\_\_\_\_\_\_\_\_\_\_\_\_\_";
 type Escape = fn(&str) -> String;
 
 fn written(document: &Document, escape: Escape) -> String {
-    let mut parts = vec![format!("# {}", escape(&document.title))];
+    let head = document.head.iter().flat_map(|head| head.text());
+    let head: Vec<String> = head.map(|line| escape(&line)).collect();
+    let mut parts = vec![head.join("  \n"), format!("# {}", escape(&document.title))];
     // two spaces at the end of a line break it
     let lines: Vec<String> = document.subtitle.iter().map(|line| escape(line)).collect();
     parts.push(lines.join("  \n"));

@@ -3,6 +3,7 @@
 
 mod html;
 mod latex;
+mod letterhead;
 mod markdown;
 mod text;
 
@@ -10,6 +11,7 @@ pub(super) use html::{fragment, html};
 pub(super) use latex::latex;
 #[cfg(test)]
 pub(crate) use latex::unit::Declared;
+pub(crate) use letterhead::Head;
 pub(super) use markdown::{markdown, markdown_with_code};
 pub(crate) use text::text;
 
@@ -29,6 +31,8 @@ pub(crate) struct Document {
     pub(crate) comma: bool,
     /// Whether it is for a terminal, where figures are drawn in characters.
     pub(crate) terminal: bool,
+    /// The head of the first page.
+    pub(crate) head: Option<Head>,
     /// The footer of printed pages; by default the title.
     pub(crate) foot: Option<Foot>,
     /// What it says.

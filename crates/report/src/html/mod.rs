@@ -16,8 +16,8 @@ use maud::{DOCTYPE, Markup, PreEscaped, html};
 /// The style of pages, in light and dark mode and on A4.
 const STYLE: &str = include_str!("style.css");
 
-/// Only the page's own style is loaded, whatever names a user chose.
-const POLICY: &str = "default-src 'none'; style-src 'unsafe-inline'";
+/// Only the page's own style and the pictures in it are loaded, whatever names a user chose.
+const POLICY: &str = "default-src 'none'; style-src 'unsafe-inline'; img-src data:";
 
 /// A whole page in English, with its title on every printed sheet.
 pub(super) fn page(title: &str, body: &Markup) -> String {

@@ -153,12 +153,13 @@ fn administrative(xml: &mut Xml, report: &CertificateReport<'_>, version: DccVer
         }
     });
     xml.element("dcc:items", |xml| xml.element("dcc:item", |xml| people::item(xml, of, languages)));
+    let logo = report.certificate.letterhead.logo.as_ref();
     xml.element("dcc:calibrationLaboratory", |xml| {
         if let Some(party) = &of.laboratory {
             if let Some(code) = &party.code {
                 xml.leaf("dcc:calibrationLaboratoryCode", code);
             }
-            xml.element("dcc:contact", |xml| contact(xml, party, languages));
+            xml.element("dcc:contact", |xml| contact(xml, party, logo, languages));
         }
     });
     xml.element("dcc:respPersons", |xml| {
@@ -169,7 +170,7 @@ fn administrative(xml: &mut Xml, report: &CertificateReport<'_>, version: DccVer
         });
     });
     if let Some(party) = &of.customer {
-        xml.element("dcc:customer", |xml| contact(xml, party, languages));
+        xml.element("dcc:customer", |xml| contact(xml, party, None, languages));
     }
     xml.element("dcc:statements", |xml| statements::write(xml, report, languages));
 }

@@ -1,8 +1,14 @@
 //! The device, and the contact persons.
 
+use base64::Engine;
+use base64::engine::general_purpose::STANDARD;
+
 use super::xml::Xml;
+use crate::certificate::file_name;
 use crate::certificate::words::{self, Words, localized};
-use gumption_analysis::certificate::contents::{AdministrativeData, Language, Localized, Party};
+use gumption_analysis::certificate::contents::{
+    AdministrativeData, Language, Localized, Party, Picture,
+};
 
 /// The device that was calibrated.
 pub(super) fn item(xml: &mut Xml, of: &AdministrativeData, languages: &[Language]) {
@@ -40,7 +46,12 @@ pub(super) fn item(xml: &mut Xml, of: &AdministrativeData, languages: &[Language
 }
 
 /// A laboratory or a customer.
-pub(super) fn contact(xml: &mut Xml, party: &Party, languages: &[Language]) {
+pub(super) fn contact(
+    xml: &mut Xml,
+    party: &Party,
+    logo: Option<&Picture>,
+    languages: &[Language],
+) {
     xml.text("dcc:name", &Localized::plain(party.name.clone()), languages);
     xml.leaf("dcc:eMail", party.email.as_deref().unwrap_or_default());
     if let Some(phone) = &party.phone {
@@ -60,4 +71,11 @@ pub(super) fn contact(xml: &mut Xml, party: &Party, languages: &[Language]) {
             }
         }
     });
+    if let Some(logo) = logo {
+        xml.element("dcc:descriptionData", |xml| {
+            xml.leaf("dcc:fileName", file_name(&logo.name));
+            xml.leaf("dcc:mimeType", logo.format.media_type());
+            xml.leaf("dcc:dataBase64", &STANDARD.encode(&logo.bytes));
+        });
+    }
 }

@@ -33,6 +33,15 @@ pub(super) fn write(xml: &mut Xml, report: &CertificateReport<'_>, languages: &[
         let of = (Some("basic_conformity"), &["JCGM 106:2012"][..], Some(conforms));
         statement(xml, &said, of, languages);
     }
+    if let Some(number) = &report.certificate.letterhead.accreditation_number {
+        let text = report.certificate.letterhead.accreditation.as_ref();
+        let said = |language: &Language| {
+            let text = text.map_or(words::of(*language).accreditation, |text| text.get(*language));
+            (Some(*language), format!("{text} {number}"))
+        };
+        let said = Localized { texts: languages.iter().map(said).collect() };
+        statement(xml, &said, (None, &[], None), languages);
+    }
     let asked: [fn(&Words) -> &'static str; 2] = [|w| w.relates, |w| w.copies];
     let asked = asked.map(|word| words::localized(languages, word));
     for remark in of.remarks.iter().chain(&asked) {

@@ -5,8 +5,9 @@ mod equation;
 mod text;
 pub(super) mod unit;
 
-use super::{Block, Document, FootPart};
+use super::{Block, Document, FootPart, Head};
 use crate::sheet::{ColumnKind, Sheet, SheetColumn};
+use gumption_analysis::certificate::contents::{Picture, PictureFormat};
 use text::escaped;
 
 /// Maximum number of rows of a table that is kept on one page.
@@ -60,6 +61,9 @@ pub(crate) fn latex(document: &Document) -> String {
         "\\usepackage[margin=18mm]{geometry}".to_owned(),
         "\\usepackage{array,longtable,booktabs,siunitx}".to_owned(),
     ];
+    if document.head.is_some() {
+        parts.push("\\usepackage{graphicx}".to_owned());
+    }
     parts.extend(units.lines());
     parts.extend([
         format!(
@@ -76,11 +80,49 @@ pub(crate) fn latex(document: &Document) -> String {
         "\\date{}".to_owned(),
         foot(document),
         "\\begin{document}".to_owned(),
+        document.head.as_ref().map_or_else(String::new, head),
         "\\maketitle".to_owned(),
         "\\thispagestyle{foot}".to_owned(),
         String::new(),
     ]);
     parts.join("\n") + "\n" + &body.join("\n\n") + "\n\n\\label{end}\n\\end{document}\n"
+}
+
+/// The head in LaTeX. The pictures are files beside the document, an SVG as a PDF of the same
+/// name; where a file is missing the document compiles without it.
+fn head(of: &Head) -> String {
+    let picture = |picture: &Option<Picture>| {
+        let name = picture.as_ref().map(file_beside);
+        name.map_or_else(String::new, |name| {
+            format!(
+                "\\IfFileExists{{{name}}}{{\\includegraphics[height=16mm,width=40mm,\
+                 keepaspectratio]{{{name}}}}}{{}}"
+            )
+        })
+    };
+    let lines = |lines: &[String]| {
+        lines.iter().map(|line| escaped(line)).collect::<Vec<_>>().join(" \\\\ ")
+    };
+    format!(
+        "\\noindent\\begin{{minipage}}[c]{{42mm}}{}\\end{{minipage}}\\hfill\n\
+         \\begin{{minipage}}[c]{{76mm}}\\raggedright {}\\end{{minipage}}\\hfill\n\
+         \\begin{{minipage}}[c]{{42mm}}\\raggedleft {}\\\\ \\footnotesize {}\\end{{minipage}}\n\n\
+         \\medskip\\hrule\\medskip",
+        picture(&of.logo),
+        lines(&of.lines),
+        picture(&of.mark),
+        lines(&of.below_mark),
+    )
+}
+
+/// The name of the file that LaTeX reads, without its folders.
+fn file_beside(picture: &Picture) -> String {
+    let name = picture.name.rsplit(['/', '\\']).next().unwrap_or(&picture.name);
+    let stem = name.rsplit_once('.').map_or(name, |(stem, _)| stem);
+    match picture.format {
+        PictureFormat::Png => name.to_owned(),
+        PictureFormat::Svg => format!("{stem}.pdf"),
+    }
 }
 
 fn block(block: &Block, units: &mut unit::Declared) -> String {
