@@ -18,9 +18,16 @@ pub(super) fn title(report: &CertificateReport<'_>) -> String {
     }
 }
 
-/// Names with the stated items; missing ones are left out.
+/// Names with the stated items, without those in the head of the page; missing ones are left out.
 pub(super) fn sheet(report: &CertificateReport<'_>) -> Sheet {
-    let lines = lines(report);
+    let languages = &report.certificate.languages;
+    let in_head: [fn(&Words) -> &'static str; 2] = [|w| w.laboratory, |w| w.accreditation];
+    let in_head = in_head.map(|word| beside(languages, word));
+    let has_head = head(report).is_some();
+    let lines: Vec<(String, String)> = lines(report)
+        .into_iter()
+        .filter(|(name, _)| !has_head || !in_head.contains(name))
+        .collect();
     let mut sheet = Sheet::default();
     sheet.text("", lines.iter().map(|(name, _)| name.clone()));
     sheet.text("", lines.iter().map(|(_, value)| value.clone()));

@@ -6,7 +6,7 @@ use super::sentences::SentenceLanguage;
 use super::sheets;
 use super::stated::{self, StatedRow};
 use super::units::printed;
-use super::words::{Words, stacked};
+use super::words::{self, Words, stacked};
 use crate::number::{exact, position, rounded, to};
 use crate::plain;
 use crate::sheet::{Figure, Sheet};
@@ -178,7 +178,10 @@ fn heading(
         _ => format!("{symbol}({})", plain(&column.quantity)),
     };
     let named = match (&column.heading, column.content) {
-        (Some(heading), _) => plain(&heading.all(languages).join(" /\n")),
+        (Some(heading), _) => {
+            let texts: Vec<String> = heading.all(languages).into_iter().map(plain).collect();
+            texts.join(" /\n")
+        }
         (None, ColumnContent::Value) => plain(&column.quantity),
         (None, ColumnContent::Expanded) => of_output("U"),
         (None, ColumnContent::Factor) => of_output("k"),
@@ -192,7 +195,7 @@ fn heading(
     match unit.filter(|_| has_unit(column.content)) {
         Some(unit) => {
             let unit = plain(printed(&unit).text());
-            format!("{named}\n{}", word(|w| w.in_unit).replace("{unit}", &unit))
+            format!("{named}\n{}", words::in_unit(languages, &unit))
         }
         None => named,
     }

@@ -4,7 +4,7 @@ use super::CertificateReport;
 use super::sentences::in_marks;
 use super::stated::{self, StatedRow, UnitsAre};
 use super::units::printed;
-use super::words::{Words, stacked};
+use super::words::{self, Words, stacked};
 use crate::number::{exact, rounded, significant};
 use crate::plain;
 use crate::sheet::{Figure, Sheet};
@@ -76,8 +76,7 @@ fn conditions(
     let named = |quantity: &Quantity| match plain(printed(&quantity.unit).text()).as_str() {
         "" | "1" => plain(&quantity.name),
         unit => {
-            let unit =
-                stacked(&report.certificate.languages, |w| w.in_unit).replace("{unit}", unit);
+            let unit = words::in_unit(&report.certificate.languages, unit);
             format!("{}\n{unit}", plain(&quantity.name))
         }
     };

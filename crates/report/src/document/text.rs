@@ -1,6 +1,6 @@
 //! A document as a text page for a terminal.
 
-use super::{Block, Document};
+use super::{Block, Document, Head};
 use crate::{Grid, plain, table::width, wrapped};
 
 /// A line for a signature.
@@ -8,7 +8,8 @@ const RULE: &str = "________________________________";
 
 /// The whole document, ending in a newline; what has no form in text is left out.
 pub(crate) fn text(document: &Document) -> String {
-    let mut parts = vec![heading(&document.title, '═')];
+    let head = document.head.iter().flat_map(Head::text).map(|line| wrapped(&line)).collect();
+    let mut parts = vec![head, heading(&document.title, '═')];
     parts.push(document.subtitle.iter().map(|line| wrapped(line)).collect());
     parts.extend(document.written(|part| block(part, document.comma)));
     parts.retain(|part| !part.is_empty());

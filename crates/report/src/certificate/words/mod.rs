@@ -205,6 +205,12 @@ pub(super) fn beside(languages: &[Language], word: impl Fn(&Words) -> &'static s
     each(languages, word).join(" / ")
 }
 
+/// A unit below the heading of a column, in the first language.
+pub(super) fn in_unit(languages: &[Language], unit: &str) -> String {
+    let first = languages.first().copied().unwrap_or(Language::English);
+    of(first).in_unit.replace("{unit}", unit)
+}
+
 /// A word as a text with a version for every language.
 pub(super) fn localized(
     languages: &[Language],
