@@ -31,7 +31,7 @@ pub(super) fn of(report: &CertificateReport<'_>) -> Document {
     document.section(beside(languages, |w| w.results));
     for TitledSheet { title, sheet } in layout::tables(report) {
         if !title.is_empty() {
-            document.text(title);
+            document.section(title);
         }
         document.table(sheet);
     }

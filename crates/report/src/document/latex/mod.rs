@@ -80,12 +80,19 @@ pub(crate) fn latex(document: &Document) -> String {
         "\\date{}".to_owned(),
         foot(document),
         "\\begin{document}".to_owned(),
-        document.head.as_ref().map_or_else(String::new, head),
-        "\\maketitle".to_owned(),
+        title(document, &subtitle),
         "\\thispagestyle{foot}".to_owned(),
         String::new(),
     ]);
     parts.join("\n") + "\n" + &body.join("\n\n") + "\n\n\\label{end}\n\\end{document}\n"
+}
+
+/// The title of the document, below its head.
+fn title(document: &Document, subtitle: &[String]) -> String {
+    let Some(of) = &document.head else { return "\\maketitle".to_owned() };
+    let lines: String = subtitle.iter().map(|line| format!("{line}\\par\n")).collect();
+    // `\maketitle` begins a page of its own below other text
+    format!("{}\n\n{{\\LARGE {}\\par}}\n{lines}\\medskip", head(of), escaped(&document.title))
 }
 
 /// The head in LaTeX. The pictures are files beside the document, an SVG as a PDF of the same
