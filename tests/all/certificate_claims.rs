@@ -225,7 +225,7 @@ fn the_sentence_about_differences_holds() {
         "res": {"unit": "V", "distribution": "rectangular", "mean": 0, "half_width": 0.01, "per": "row"}},
         "conditions": {"f": {"unit": "Hz", "values": [1, 2]}},
         "equations": {"y": "ref + res + 0*f*1 [V/Hz]"}, "outputs": {"y": {"unit": "V"}}});
-    let plain = certificate(rows(&["y"]), json!({}));
+    let plain = certificate(rows(&["y"]), json!({"correlations": true}));
     let dir = folder(&[("m.json", &file), ("c.json", &plain)]);
     let found = answer(dir.path(), &["certificate", "c.json"]);
     // only the resolution differs: sqrt(2) 0.01/sqrt(3)
@@ -236,7 +236,10 @@ fn the_sentence_about_differences_holds() {
     let mut file = model(json!({"x": normal("V", 10.0, 0.01)}), "x + 0*f*1 [V/Hz]", None);
     file["conditions"] = json!({"f": {"unit": "Hz", "values": [1, 2]}});
     let raised = json!([{"model": "m.json", "output": "y", "cmc": 0.06, "cmc_floor": true}]);
-    let dir = folder(&[("m.json", &file), ("c.json", &certificate(raised, json!({})))]);
+    let dir = folder(&[
+        ("m.json", &file),
+        ("c.json", &certificate(raised, json!({"correlations": true}))),
+    ]);
     let found = answer(dir.path(), &["certificate", "c.json"]);
     assert!((of_difference(&found) - 0.04).abs() < 1e-12, "{found}");
     let page = output(dir.path(), &["certificate", "c.json", "--quiet"]).replace("\n", " ");
@@ -403,7 +406,9 @@ fn correlated_rows_of_a_digital_certificate_can_be_used() {
     let mut file = model(json!({"x": student(3.0), "n": normal("V", 0.0, 0.004)}), "x", None);
     file["equations"]["w"] = json!("x + n");
     file["outputs"]["w"] = json!({"unit": "V"});
-    let certificate = certificate(rows(&["y", "w"]), json!({}));
+    let mut rows = rows(&["y", "w"]);
+    rows[1]["statement"] = json!("monte-carlo");
+    let certificate = certificate(rows, json!({}));
     let folder = folder(&[("m.json", &file), ("c.json", &certificate)]);
     let xml = output(folder.path(), &["certificate", "c.json", "--format", "dcc", "--quiet"]);
     fs::write(folder.path().join("c.xml"), xml).expect("a file");

@@ -14,6 +14,7 @@ mod cases;
 mod catalogue;
 mod certificate;
 mod certificate_claims;
+mod certificate_layout;
 mod circles;
 mod commands;
 mod compare;

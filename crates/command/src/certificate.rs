@@ -18,7 +18,7 @@ use super::output::AnswerPlace;
 use super::{CommandLine, Exit, Failure, output, progress, run, signals};
 use gumption_analysis::certificate::contents::{Certificate as Asked, Line};
 use gumption_analysis::certificate::{Basis, Failed, Issued, issue};
-use gumption_engine::propagate::warnings;
+use gumption_engine::propagate::{statement_notes, warnings};
 use gumption_engine::task::{MethodChoice, Trials, Warning};
 use gumption_files::{CertificateFile, FileReader};
 use gumption_report::certificate::{self as report, CertificateReport, DccVersion, ModelSource};
@@ -297,6 +297,7 @@ fn notes(file: &CertificateFile, issued: &Issued) -> Vec<Warning> {
     let evaluations = file.certificate.evaluations.iter().zip(&issued.evaluations);
     for (asked, evaluation) in evaluations {
         let found = warnings(&asked.task, evaluation).into_iter();
+        let found = found.chain(statement_notes(&asked.task, evaluation));
         for warning in found.filter(|warning| !OF_ROWS.contains(&warning.code())) {
             let note = warning.within(fact!("of-model", model = &asked.model));
             if !notes.contains(&note) {

@@ -57,5 +57,5 @@ pub use replay::{
 };
 pub use second_order::SecondOrder;
 pub use statement::{Basis, Stated};
-pub use warnings::warnings;
+pub use warnings::{statement_notes, warnings};
 pub use whole_turns::onto_branch;

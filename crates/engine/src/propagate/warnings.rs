@@ -297,7 +297,6 @@ fn of_output(
     };
     of_extremes(name, &at, monte_carlo, found);
     of_heavy_tails(name, &at, output, monte_carlo, found);
-    of_statement(task, name, &at, output, found);
     let spread = monte_carlo.standard_uncertainty.unwrap_or(gum.standard_uncertainty);
     of_results(name, &at, row, gum, spread, found);
     if let Some(Adaptive { converged: false, tolerance, .. }) = monte_carlo.adaptive
@@ -326,27 +325,43 @@ fn of_output(
 const ROUNDING: f64 = 1e-13;
 
 /// Which method the stated uncertainty comes from where clause 8 does not validate the interval of the
-/// law of propagation, and why.
+/// law of propagation, and why: for those who state results, one note for each output and cause.
+pub fn statement_notes(task: &Task, evaluation: &Evaluation) -> Vec<Warning> {
+    let named = named(task, &evaluation.rows);
+    let mut found: Vec<Warning> = Vec::new();
+    for row in &evaluation.rows {
+        for (output, evaluated) in task.model.outputs.iter().zip(&row.outputs) {
+            let name = &output.quantity.name;
+            let fact = of_statement(task, name, at(task, &named, row), evaluated);
+            let is_told = |fact: &Fact| {
+                found.iter().any(|note| note.place == *name && note.fact.key == fact.key)
+            };
+            if let Some(fact) = fact.filter(|fact| !is_told(fact)) {
+                found.push(Warning::new(name, fact));
+            }
+        }
+    }
+    found
+}
+
 fn of_statement(
     task: &Task,
     name: &str,
-    at: &Option<Fact>,
+    at: Option<Fact>,
     output: &OutputEvaluation,
-    found: &mut Vec<Warning>,
-) {
+) -> Option<Fact> {
     let settings = &task.settings;
     let is_refuted = output.validation.is_some_and(|v| v.gum_valid == Some(false));
     let (Some(agreement), Some(stated), true) =
         (output.agreement, Stated::of(output, settings), is_refuted)
     else {
-        return;
+        return None;
     };
-    let at = at.clone();
     let percent = |share: f64| Argument::number(significant(100.0 * share, 2));
     let (difference, allowed) =
         (percent(agreement.difference), percent(settings.statement_tolerance));
     let cause = agreement.cause(settings.statement_tolerance);
-    let fact = match (settings.statement, stated.basis == Basis::Shortest, cause) {
+    Some(match (settings.statement, stated.basis == Basis::Shortest, cause) {
         (StatementMethod::Gum, ..) => fact!("stated-by.gum", name, at),
         (StatementMethod::MonteCarlo, ..) => fact!("stated-by.monte-carlo", name, at),
         (StatementMethod::Auto, false, DifferenceCause::DegreesOfFreedom) => {
@@ -361,8 +376,7 @@ fn of_statement(
         (StatementMethod::Auto, true, _) => {
             fact!("stated-by.shape", name, at, difference, allowed)
         }
-    };
-    push(found, Warning::new(name, fact));
+    })
 }
 
 /// Why the standard uncertainties of the two methods differ: few degrees of freedom, a model that is
