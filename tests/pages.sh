@@ -39,6 +39,17 @@ page plan plan models/inclined_plane.json --target "U(a_x) <= 0.01 m/s^2"
 page certificate certificate models/certificates/three_axis_accelerometer.json
 page interactive run models/inclined_plane.json --trials 200000 --interactive
 
+# the certificates of a laboratory, every sheet on A4
+for file in models/certificates/*.json; do
+  name=certificate-$(basename "$file" .json)
+  [ "$name" != certificate-three_axis_accelerometer ] || continue
+  page "$name" certificate "$file"
+  "${CHROMIUM:-chromium}" --headless --no-sandbox --disable-gpu --no-pdf-header-footer \
+    --print-to-pdf="$work/$name.pdf" "file://$work/$name.html" 2> /dev/null
+  rm -f "$folder/$name"-?.png
+  pdftoppm -r 60 -png "$work/$name.pdf" "$folder/$name"
+done
+
 for columns in 60 80 100 140; do
   session="pages-$$-$columns"
   tmux new-session -d -s "$session" -x "$columns" -y 120 \

@@ -1,6 +1,7 @@
 //! The certificate for programs.
 
 use super::functions::At;
+use super::layout::{self, TitledSheet};
 use super::sentences::{SentenceLanguage, SentencePlace};
 use super::stated::{self, StatedRow};
 use super::{
@@ -47,6 +48,9 @@ pub fn json(report: &CertificateReport<'_>) -> String {
         ("warnings", crate::words::listed(report.warnings)),
         ("provenance", provenance(report)),
     ];
+    if !certificate.layout.is_empty() {
+        answer.push(("tables", list(layout::tables(report).iter().map(laid_out))));
+    }
     let covered: Vec<Value> = regions::covered(report).iter().map(|of| of.json()).collect();
     if !covered.is_empty() {
         answer.push(("regions", covered.into()));
@@ -56,6 +60,17 @@ pub fn json(report: &CertificateReport<'_>) -> String {
         answer.insert(8, ("functions", list(functions)));
     }
     pretty(&object(answer))
+}
+
+/// A table of the layout as every page shows it, with decimal points.
+fn laid_out(table: &TitledSheet) -> Value {
+    let columns = table.sheet.columns.iter().map(|column| {
+        object([
+            ("heading", Value::from(column.header.replace('\n', " "))),
+            ("cells", list(column.cells.iter().map(|cell| Value::from(cell.as_str())))),
+        ])
+    });
+    object([("title", Value::from(table.title.as_str())), ("columns", list(columns))])
 }
 
 /// The equations of the models and their symbols.

@@ -138,9 +138,15 @@ fn result(settings: &Settings, output: &Quantity, found: &OutputEvaluation) -> S
     let coverage = table::coverage_text(settings.coverage);
     match ResultStatement::of(settings, found) {
         ResultStatement::Expanded { estimate, expanded, factor } => {
-            let value = match output.unit.has_name() {
-                true => in_unit(&format!("({estimate} ± {expanded})"), &output.unit),
-                false => format!("{estimate} ± {expanded}"),
+            let unit = &output.unit;
+            let value = match (unit.has_name(), unit.has_reference()) {
+                // an uncertainty of a level is a ratio, without the reference
+                (_, true) => {
+                    let expanded = in_unit(&expanded, &unit.of_differences());
+                    format!("{} ± {expanded}", in_unit(&estimate, unit))
+                }
+                (true, false) => in_unit(&format!("({estimate} ± {expanded})"), unit),
+                (false, false) => format!("{estimate} ± {expanded}"),
             };
             let probability = format!("coverage probability {coverage}");
             let about = match raised(found) {
@@ -160,7 +166,7 @@ fn result(settings: &Settings, output: &Quantity, found: &OutputEvaluation) -> S
             )
         }
         ResultStatement::Standard { estimate, uncertainty } => {
-            let u = in_unit(&uncertainty, &output.unit);
+            let u = in_unit(&uncertainty, &output.unit.of_differences());
             format!("{name} = {} with standard uncertainty {u}", in_unit(&estimate, &output.unit))
         }
         ResultStatement::Undefined => format!("{name} is not defined at these estimates"),
@@ -328,11 +334,14 @@ fn conclusions(
     let lines = budget::conclusions(settings, output, gum, digits);
     sheet.text("result", lines.iter().map(|line| line.name.to_owned()));
     sheet.figures("value", lines.iter().map(|line| line.figure.clone()));
-    let unit = |line: &budget::Conclusion<'_>| {
-        line.unit.filter(|unit| unit.has_name()).map_or_else(String::new, |unit| unit.text().into())
+    let unit = |line: &budget::Conclusion| {
+        line.unit
+            .as_ref()
+            .filter(|unit| unit.has_name())
+            .map_or_else(String::new, |unit| unit.text().into())
     };
     sheet.units("unit", lines.iter().map(unit));
-    let remark = |line: &budget::Conclusion<'_>| match (line.name, settings.coverage) {
+    let remark = |line: &budget::Conclusion| match (line.name, settings.coverage) {
         ("coverage factor", Coverage::Factor { fixed: true, .. }) => {
             line.remark.clone() + ", fixed"
         }

@@ -33,7 +33,7 @@ pub(crate) fn table(sheet: &Sheet) -> Markup {
                                 @if title.is_empty() {
                                     td {}
                                 } @else {
-                                    th scope="col" class=[class(column)] { (title) }
+                                    th scope="col" class=[class(column)] { (raised(&title)) }
                                 }
                             }
                         }

@@ -257,22 +257,22 @@ pub(crate) fn subtotals(task: &Task, gum: &Gum) -> Option<String> {
 
 /// A figure that follows from the budget.
 #[derive(Clone, Debug)]
-pub(crate) struct Conclusion<'a> {
+pub(crate) struct Conclusion {
     pub(crate) name: &'static str,
     pub(crate) figure: Figure,
     /// Its unit, if it has one.
-    pub(crate) unit: Option<&'a Unit>,
+    pub(crate) unit: Option<Unit>,
     /// What is said behind it.
     pub(crate) remark: String,
 }
 
 /// Combined standard uncertainty, degrees of freedom, coverage factor, expanded uncertainty.
-pub(crate) fn conclusions<'a>(
+pub(crate) fn conclusions(
     settings: &Settings,
-    output: &'a Quantity,
+    output: &Quantity,
     gum: &Gum,
     digits: u32,
-) -> [Conclusion<'a>; 4] {
+) -> [Conclusion; 4] {
     let conclusion = |name, figure| Conclusion { name, figure, unit: None, remark: String::new() };
     let (_, combined) = with_uncertainty(gum.estimate, gum.standard_uncertainty, digits);
     // an agreed factor has the probability of a normal distribution, which finite degrees of freedom
@@ -296,14 +296,14 @@ pub(crate) fn conclusions<'a>(
     };
     let dof = Figure { text: effective(gum.dof, settings.real_dof), value: dof };
     let expanded = gum.expanded_uncertainty();
-    let unit = expanded.map(|_| &output.unit);
+    let unit = expanded.map(|_| output.unit.of_differences());
     let expanded = match expanded {
         Some(expanded) => Figure::of(expanded, significant(expanded, digits)),
         None => Figure { text: "not defined".to_owned(), value: None },
     };
     [
         Conclusion {
-            unit: Some(&output.unit),
+            unit: Some(output.unit.of_differences()),
             ..conclusion(
                 "combined standard uncertainty",
                 Figure::of(gum.standard_uncertainty, combined),
