@@ -9,6 +9,7 @@ use gumption_engine::fact;
 use gumption_engine::fact::Fact;
 use gumption_engine::model::Tolerance;
 use gumption_engine::number::Shortest;
+use gumption_engine::number::elementary::hypot;
 
 /// The ratio of the standard uncertainty of a robust average to s*/sqrt(p) (ISO 13528:2022, 7.7.3).
 const OF_AVERAGE: f64 = 1.25;
@@ -316,11 +317,11 @@ pub fn score(
         let own = participant.uncertainty.map(StatedUncertainty::standard);
         let over =
             |width: Option<f64>| width.filter(|width| *width > 0.0).map(|width| deviation / width);
-        let of_difference = own.zip(of).map(|(own, of)| own.hypot(of));
+        let of_difference = own.zip(of).map(|(own, of)| hypot(own, of));
         Scores {
             deviation,
             z: over(Some(sigma)),
-            z_prime: over(of.filter(|_| sigma > 0.0).map(|of| sigma.hypot(of))),
+            z_prime: over(of.filter(|_| sigma > 0.0).map(|of| hypot(sigma, of))),
             zeta: over(of_difference),
             normalized_error: over(of_difference.map(|u| FACTOR * u)),
             participant,

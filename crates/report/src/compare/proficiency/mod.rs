@@ -20,6 +20,11 @@ use gumption_analysis::compare::proficiency::Scores;
 /// no uncertainty.
 const DIGITS: u32 = 2;
 
+/// z, z', zeta and En.
+fn scores(row: &Scores) -> [Option<f64>; 4] {
+    [row.z, row.z_prime, row.zeta, row.normalized_error]
+}
+
 /// One line for each participant, in full precision, below the names of the columns.
 pub(super) fn records(test: &ProficiencyTest, unit: &str) -> Vec<Vec<String>> {
     let names = ["label", "value", "U", "k", "deviation", "z", "z_prime", "zeta", "en"];
@@ -31,13 +36,9 @@ pub(super) fn records(test: &ProficiencyTest, unit: &str) -> Vec<Vec<String>> {
             stated.map(|stated| stated.expanded),
             stated.map(|stated| stated.factor),
             Some(row.deviation),
-            row.z,
-            row.z_prime,
-            row.zeta,
-            row.normalized_error,
         ];
         let mut record = vec![text(&row.participant.label)];
-        record.extend(numbers.map(number));
+        record.extend(numbers.into_iter().chain(scores(row)).map(number));
         let signal = test.signal(row).map_or_else(String::new, |signal| signal.name().to_owned());
         record.extend([signal, text(unit)]);
         record
@@ -69,15 +70,10 @@ pub(super) fn sheet(test: &ProficiencyTest, unit: &str) -> Sheet {
     if has_name(unit) {
         sheet.units("unit", rows.iter().map(|_| plain(unit)));
     }
-    let scores: [(&str, fn(&Scores) -> Option<f64>); 4] = [
-        ("z", |row| row.z),
-        ("z'", |row| row.z_prime),
-        ("zeta", |row| row.zeta),
-        ("En", |row| row.normalized_error),
-    ];
-    for (name, of) in scores {
+    for (place, name) in ["z", "z'", "zeta", "En"].into_iter().enumerate() {
+        let of = |row: &Scores| scores(row)[place];
         if rows.iter().any(|row| of(row).is_some()) {
-            let cell = |row: &Scores| of(row).map_or_else(|| MISSING.to_owned(), score);
+            let cell = |row| of(row).map_or_else(|| MISSING.to_owned(), score);
             sheet.numbers(name, rows.iter().map(cell));
         }
     }
