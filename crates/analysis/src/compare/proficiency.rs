@@ -138,7 +138,7 @@ impl Signal {
 }
 
 /// Whether a normalized error is satisfactory: its modulus is at most 1, apart from the rounding of
-/// binary fractions (ISO/IEC 17043:2023, B.4; ISO 13528:2022, 9.7).
+/// binary fractions (ISO 13528:2022, 9.7).
 pub fn is_satisfactory(normalized_error: f64) -> bool {
     Tolerance { lower: None, upper: Some(1.0) }.holds(normalized_error.abs())
 }

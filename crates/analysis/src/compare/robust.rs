@@ -18,7 +18,7 @@ const WINSORIZED_AT: f64 = 1.5;
 const OF_WINSORIZED: f64 = 1.134;
 
 /// Maximum number of iterations. Each one divides the distance from the limit by about 3 for results
-/// of a normal distribution; 10 000 are enough for a division by 1.002.
+/// of a normal distribution; 10 000 are enough for a division by 1.003.
 const MOST_ITERATIONS: usize = 10_000;
 
 /// The iteration ends at changes below this fraction of the standard deviation. The standard ends it

@@ -98,5 +98,5 @@ fn of_row<'a>(test: &ProficiencyTest, row: &'a Scores) -> Row<'a> {
     }
 }
 
-/// The word for a normalized error above 1 (ISO/IEC 17043:2023, B.4).
+/// The word for a normalized error above 1 (ISO/IEC 17043).
 const UNSATISFACTORY: &str = "unsatisfactory";
