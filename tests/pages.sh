@@ -33,6 +33,7 @@ page gap gap models/gap/lateral_motion/case.json
 page observe observe models/recordings/rotating_table/recipe.json
 page verify verify
 page compare compare models/examples/results.csv
+page proficiency compare models/examples/proficiency.csv --scheme iso13528
 page diff diff models/examples/last_year.json models/examples/this_year.json
 page assumptions assumptions models/spurious_component.json --trials 100000
 page plan plan models/inclined_plane.json --target "U(a_x) <= 0.01 m/s^2"

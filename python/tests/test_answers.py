@@ -219,6 +219,14 @@ class TestCommands:
         assert dict(gu.compare(pandas.DataFrame(columns))) == dict(answer)
         assert not gu.compare({**columns, "x1": [11.3]}).yes
 
+    def test_proficiency_test(self) -> None:
+        columns = {"label": ["A", "B"], "x": [10.3, 9.2]}
+        answer = gu.compare(columns, scheme="iso13528", assigned=10, assigned_u=0.1, sigma=0.2)
+        assert [round(row["z"], 12) for row in answer["rows"]] == [1.5, -4.0]
+        assert not answer.yes
+        with pytest.raises(gu.ModelError, match="niqr"):
+            gu.compare(columns, scheme="iso13528", sigma="nqr")
+
     def test_certificate(self, tmp_path: Path) -> None:
         path = MODELS / "certificates" / "three_axis_accelerometer.json"
         certificate = gu.certificate(path, trials=0)

@@ -183,6 +183,38 @@ fn no_trials_leave_the_law_of_propagation() {
     assert_eq!(ended(&["run", "-", "--trials", "0", "--format", "csv"], SMALL).0, 0);
 }
 
+/// Trials without a finite result: the message names the three ways on, with what the law of
+/// propagation gives, and each way leads on. sqrt(1 m^2) = 1 m, and u = 0.4 m^2/(2 x 1 m).
+#[test]
+fn trials_that_are_not_finite_have_three_ways_on() {
+    let model = |more: &str, root: &str| {
+        format!(
+            r#"{{{root}"inputs": {{"x": {{"unit": "m^2", "distribution": "normal", "mean": 1, "std": 0.4{more}}}}},
+              "equations": {{"y": "sqrt(x)"}}, "outputs": {{"y": {{"unit": "m"}}}},
+              "monte_carlo": {{"trials": 10000}}}}"#
+        )
+    };
+    let (code, _, said) = ended(&["run", "-"], &model("", ""));
+    assert_eq!(code, 2, "{said}");
+    let wanted = "the law of propagation gives y = 1.00 m with u = 0.20 m; state the `limits` of an \
+                  input that cannot have such values, allow a share P of such trials, \
+                  `\"allow_undefined\": P`, or take the law of propagation alone, `--trials 0`";
+    assert!(said.contains(wanted), "{said}");
+    let of_limits = model(r#", "limits": [0, 3]"#, "");
+    let of_share = model("", r#""allow_undefined": 0.02, "#);
+    for input in [of_limits, of_share] {
+        let (code, _, said) = ended(&["run", "-"], &input);
+        assert_eq!(code, 0, "{said}");
+    }
+    let (code, page, said) = ended(&["run", "-", "--trials", "0"], &model("", ""));
+    assert!(code == 0 && page.contains("0.20"), "{page}{said}");
+    // an estimate that is not finite leaves the trials alone
+    let (code, _, said) =
+        ended(&["run", "-"], &model("", "").replace("sqrt(x)", "sqrt(x - 1.1 [m^2])"));
+    assert!(code == 2 && said.contains("`\"allow_undefined\": P`"), "{said}");
+    assert!(!said.contains("law of propagation"), "{said}");
+}
+
 #[test]
 fn set_replaces_estimates_and_fields() {
     let with = |settings: &[&str]| {

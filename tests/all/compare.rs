@@ -330,3 +330,94 @@ fn one_laboratory_is_no_consistent_subset() {
         assert!(!page.contains("1 laboratories"), "{page}");
     }
 }
+
+/// The robust average of copper in wholemeal flour, 3.20549 by R and statsmodels, with s* = 0.6742 by
+/// the factor 1.134 (`analysis/compare/proficiency/tests`), and u = 1.25 s*/sqrt(24).
+#[test]
+fn a_proficiency_test_in_every_format() {
+    let table = root().join("models/examples/proficiency.csv");
+    let table = table.to_str().expect("a path");
+    let folder = root();
+    let found = answer(folder, &[table, "--scheme", "iso13528"]);
+    let assigned = &found["assigned"];
+    assert_eq!(assigned["method"], "algorithm-a");
+    assert!((number(&assigned["value"]) - 3.20549).abs() < 1e-4);
+    let sigma = number(&found["sigma_pt"]);
+    assert!((sigma - 0.67415).abs() < 1e-5);
+    let u = number(&assigned["standard_uncertainty"]);
+    assert!((u - 1.25 * sigma / 24f64.sqrt()).abs() < 1e-12);
+    let row = &found["rows"][16];
+    assert_eq!((&row["label"], &row["signal"]), (&json!("17"), &json!("action signal")));
+    assert!((number(&row["z"]) - (28.95 - number(&assigned["value"])) / sigma).abs() < 1e-12);
+    assert_eq!((&row["zeta"], &row["en"]), (&Value::Null, &Value::Null));
+    let codes: Vec<&Value> =
+        found["warnings"].as_array().expect("a list").iter().map(|note| &note["code"]).collect();
+    assert_eq!(codes, ["assigned-value-chosen", "sigma-chosen"]);
+    for format in ["table", "html", "markdown", "csv"] {
+        let output = run(folder, &[table, "--scheme", "iso13528", "--format", format, "--fail"]);
+        assert_eq!(output.status.code(), Some(3));
+        let text = String::from_utf8(output.stdout).expect("UTF-8");
+        assert!(text.contains("action signal"), "{text}");
+        match format {
+            "csv" => assert_eq!(text.lines().count(), 25),
+            "html" => {
+                let [from, to] = ["<svg", "</svg>"].map(|tag| text.find(tag).expect("a figure"));
+                roxmltree::Document::parse(&text[from..to + 6]).expect("a well-formed figure");
+                assert!(text.contains("z score"));
+            }
+            _ => assert!(text.contains("Assigned value 3.21 ug/g with u = 0.17 ug/g"), "{text}"),
+        }
+    }
+}
+
+/// By hand: 10.5 and 9.4 about 10 with u = 0.3 and sigma = 0.4; the first one with u = 0.4 has zeta
+/// 1 and En 0.5. The numbers stand in other units than the options.
+#[test]
+fn stated_values_of_a_proficiency_test() {
+    let (folder, _) = with("t.csv", "label;x [V];U [mV];k\nA;10,5;1200;3\nB;9,4;;\n");
+    let options = ["--assigned", "10000 mV", "--assigned-u", "0.3 V", "--sigma", "4 %"];
+    let arguments = [&["t.csv", "--scheme", "iso13528"], &options[..]].concat();
+    let found = answer(folder.path(), &arguments);
+    let near = |value: &Value, wanted: f64| (number(value) - wanted).abs() < 1e-12;
+    let [first, second] = [&found["rows"][0], &found["rows"][1]];
+    for (key, wanted) in [("z", 1.25), ("z_prime", 1.0), ("zeta", 1.0), ("en", 0.5)] {
+        assert!(near(&first[key], wanted), "{key}: {first}");
+    }
+    assert!(near(&second["z"], -1.5) && near(&second["z_prime"], -1.2));
+    assert_eq!((&second["zeta"], &second["en"]), (&Value::Null, &Value::Null));
+    assert_eq!(found["deciding_score"], "z_prime");
+    assert_eq!((&found["unit"], &found["assigned"]["method"]), (&json!("V"), &json!("stated")));
+}
+
+/// Results that do not scatter have no scores, and errors name what would be right.
+#[test]
+fn proficiency_tests_without_scores() {
+    let (folder, _) = with("same.csv", "label,x\nA,5\nB,5\nC,5\n");
+    let found = answer(folder.path(), &["same.csv", "--scheme", "iso13528"]);
+    assert_eq!((&found["sigma_pt"], &found["rows"][0]["z"]), (&json!(0.0), &Value::Null));
+    let html = run(folder.path(), &["same.csv", "--scheme", "iso13528", "--format", "html"]);
+    assert!(!String::from_utf8_lossy(&html.stdout).contains("<svg"));
+    let failed = run(folder.path(), &["same.csv", "--scheme", "iso13528", "--fail"]);
+    assert_eq!(failed.status.code(), Some(3));
+    for (table, options, wanted) in [
+        ("label,x\nA,5\n", vec![], "`--assigned VALUE --sigma VALUE`"),
+        ("label,x\nA,nan\nB,5\n", vec![], "is not a finite number"),
+        ("label,x\nA,5\nA,6\n", vec![], "stands here a second time"),
+        ("label,x\nA,5\nMedian,6\n", vec![], "`--assigned VALUE --assigned-u U`"),
+        ("label,x,k\nA,5,2\nB,6,2\n", vec![], "has no column `U`"),
+        ("label,x,U\nA,5,0\nB,6,2\n", vec![], "must be above zero"),
+        ("label,y1\nA,5\nB,6\n", vec![], "a proficiency test has label, x"),
+        ("label,x\nA,5\nB,6\n", vec!["--sigma", "5 %"], "can be a share of the value"),
+        ("label,x\nA,5\nB,6\n", vec!["--sigma", "0"], "must be above 0"),
+        ("label,x\nA,5\nB,6\n", vec!["--assigned", "mean"], "`median`"),
+    ] {
+        fs::write(folder.path().join("t.csv"), table).expect("written");
+        let refused =
+            run(folder.path(), &[&["t.csv", "--scheme", "iso13528"], &options[..]].concat());
+        let said = String::from_utf8_lossy(&refused.stderr).into_owned();
+        assert_eq!(refused.status.code(), Some(2), "{table}: {said}");
+        assert!(said.contains(wanted), "{table}: {said}");
+    }
+    let alone = run(folder.path(), &["same.csv", "--sigma", "niqr"]);
+    assert_eq!(alone.status.code(), Some(2));
+}

@@ -157,8 +157,8 @@ fn commands_exist() {
 #[test]
 fn new_asks() {
     let folder = tempfile::tempdir().expect("a folder");
-    let answers = "Power\npower = voltage^2/resistance\n\nmW\nV\nnormal,mean=5.01,expanded=0.02,k=2\n\
-                   furlong\nohm\nnormall,mean=1\nreadings,values=99.8 100.1 100.0 99.9\n";
+    let answers = "Power\npower = voltage^2/resistance\n\nmW\n5.01 V ± 0.02 V\n5.01 V ± 0.02 V (k=2)\n\
+                   normall,mean=1\nreadings, values=99.8 100.1 100.0 99.9\nfurlong\nohm\n";
     fs::write(folder.path().join("answers"), answers).expect("written");
     let said = shell(folder.path(), "gumption new --output power.json < answers");
     let error = String::from_utf8_lossy(&said.stderr);
@@ -168,6 +168,26 @@ fn new_asks() {
     let page = String::from_utf8_lossy(&page.stdout);
     // 5.01^2/99.95 W
     assert!(page.contains("251."), "{page}");
+    assert!(error.contains("state the coverage of the uncertainty"), "{error}");
+    let text = fs::read_to_string(folder.path().join("power.json")).expect("the file");
+    let file: serde_json::Value = serde_json::from_str(&text).expect("JSON");
+    assert_eq!(file["inputs"]["voltage"], "5.01 V ± 0.02 V (k=2)");
+    assert_eq!(file["inputs"]["resistance"]["unit"], "ohm");
+    let line =
+        "gumption new --equation 'y = 2*a' --unit y=V --input 'a=5.0112(23) V' --output y.json";
+    assert!(shell(folder.path(), line).status.success());
+    let answer = shell(folder.path(), "gumption run y.json --trials 0 --format json");
+    let answer: serde_json::Value = serde_json::from_slice(&answer.stdout).expect("JSON");
+    // 2 x 5.0112(23)
+    let u = answer["outputs"]["y"]["gum"]["standard_uncertainty"].as_f64().expect("u");
+    assert!((u - 0.0046).abs() < 1e-12, "{u}");
+    // an empty answer ends the questions
+    for answers in ["T\\n\\n", "T\\ny = a\\n\\n\\n", "T\\ny = a\\n\\nV\\n\\n", "T\\ny = a\\n"] {
+        let said = shell(folder.path(), &format!("printf '{answers}' | gumption new"));
+        let error = String::from_utf8_lossy(&said.stderr);
+        assert_eq!(said.status.code(), Some(2), "{answers}: {error}");
+        assert!(error.contains("has no answer, so that no file is written"), "{answers}: {error}");
+    }
 
     // what is not known stays blank and is told; nothing is made up
     let line = "gumption new --equation 'y = a*b' --input 'a=m,rectangular,mean=1,half_width=0.1' --output y.json";
@@ -188,7 +208,7 @@ fn new_asks() {
             "did you mean `std`?",
         ),
         ("gumption new --equation 'y = a' --input 'a=m,normal,mean=1,std=-2'", "std"),
-        ("gumption new < /dev/null", "the answers ended"),
+        ("gumption new < /dev/null", "has no answer"),
     ] {
         let found = shell(folder.path(), line);
         let error = String::from_utf8_lossy(&found.stderr);

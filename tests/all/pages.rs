@@ -47,10 +47,11 @@ fn a_page_shows_how_the_figures_settle() {
 /// Every command that makes a page gives it a script, and changes nothing else; others refuse.
 #[test]
 fn a_script_is_all_that_interactive_pages_have_more() {
-    let commands: [&[&str]; 6] = [
+    let commands: [&[&str]; 7] = [
         &["run", MODEL, "--trials", "2000"],
         &["observe", RECIPE],
         &["compare", "models/examples/results.csv"],
+        &["compare", "models/examples/proficiency.csv", "--scheme", "iso13528"],
         &["diff", MODEL, MODEL],
         &["certificate", CERTIFICATE, "--trials", "2000"],
         &["assumptions", "models/spurious_component.json", "--trials", "20000"],

@@ -6,16 +6,20 @@ use clap::{Args, ValueEnum};
 
 use super::options::{self, AnswerOptions, Interactive};
 use super::{Exit, Failure};
-use gumption_analysis::compare::{Estimator, Impossible, ResultPair, laboratories};
+use gumption_analysis::compare::{
+    Estimator, Impossible, Participant, ProficiencyTest, ResultPair, laboratories, proficiency,
+};
+use gumption_engine::task::Warning;
 use gumption_foreign::{ComparisonOptions, ComparisonTable, ReadComparison};
 use gumption_report::compare::{self as report, Compare as ComparedPair};
-use gumption_units::nearest;
+use gumption_units::{Unit, nearest};
 
 /// Compare results in pairs, or results of many laboratories.
 #[derive(Debug, Args)]
 pub(super) struct Compare {
     /// The table, CSV or XLSX: columns label, x1, U1, x2, U2 and optionally k1, k2, r; for
-    /// laboratories label, x, U and optionally k; - for CSV on standard input
+    /// laboratories label, x, U and optionally k; for a proficiency test label, x and optionally U,
+    /// k; - for CSV on standard input
     table: PathBuf,
     /// The sheet of the workbook, if several contain a table
     #[arg(long, value_name = "NAME")]
@@ -31,10 +35,28 @@ pub(super) struct Compare {
     /// that of the largest consistent subset if they are not consistent
     #[arg(long, value_name = "NAME", value_parser = estimator)]
     estimator: Option<Estimator>,
+    /// Score the results as those of a proficiency test by this standard
+    #[arg(
+        long,
+        value_name = "NAME",
+        conflicts_with_all = ["against", "correlations", "estimator", "rounding"]
+    )]
+    scheme: Option<Scheme>,
+    /// The assigned value: algorithm-a (the default), median, or a value in the unit of the results
+    #[arg(long, value_name = "VALUE", requires = "scheme", allow_hyphen_values = true)]
+    assigned: Option<String>,
+    /// The standard uncertainty of a stated assigned value
+    #[arg(long, value_name = "U", requires = "assigned", allow_hyphen_values = true)]
+    assigned_u: Option<String>,
+    /// The standard deviation for proficiency assessment: algorithm-a (the default), niqr, a value
+    /// in the unit of the results, or a percentage of the assigned value
+    #[arg(long, value_name = "VALUE", requires = "scheme", allow_hyphen_values = true)]
+    sigma: Option<String>,
     /// Show the range of the normalized error that the printed digits allow
     #[arg(long)]
     rounding: bool,
-    /// Exit with code 3 if results are not compatible, or laboratories not consistent
+    /// Exit with code 3 if results are not compatible, laboratories not consistent, or a participant
+    /// has an action signal or no score
     #[arg(long)]
     fail: bool,
     #[command(flatten)]
@@ -54,8 +76,15 @@ enum CompareFormat {
     Markdown,
     /// The whole answer for programs
     Json,
-    /// One line for each pair or laboratory
+    /// One line for each pair, laboratory or participant
     Csv,
+}
+
+/// The standard by which a proficiency test is evaluated.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+enum Scheme {
+    /// ISO 13528:2022
+    Iso13528,
 }
 
 /// The estimators by name, and by short forms for two of them.
@@ -80,12 +109,13 @@ impl Compare {
             against: self.against.as_deref(),
             correlations: self.correlations.as_deref(),
             sheet: self.sheet.as_deref(),
+            is_proficiency_test: self.scheme == Some(Scheme::Iso13528),
         };
         let text = |text: &str| gumption_foreign::read_comparison_text("<stdin>", text, options);
         let table = options::given(&self.table, text, |path| {
             gumption_foreign::read_comparison(path, options)
         });
-        let ReadComparison { table, units, warnings } = table??;
+        let ReadComparison { table, units, mut warnings } = table??;
         let read = [Some(&self.table), self.against.as_ref(), self.correlations.as_ref()];
         let read: Vec<PathBuf> = read.into_iter().flatten().cloned().collect();
         let place = self.answer.open(&read)?;
@@ -116,6 +146,12 @@ impl Compare {
                     unit: units.into_iter().next().unwrap_or_default(),
                 }
             }
+            ComparisonTable::Proficiency(participants) => {
+                let unit = units.into_iter().next().unwrap_or_default();
+                let test = self.scored(participants, &unit)?;
+                warnings.extend(test.notes.iter().cloned().map(|fact| Warning::new("", fact)));
+                ComparedPair::Proficiency { test, unit }
+            }
         };
         self.answer.say(&warnings);
         let answer = match self.answer.format {
@@ -127,5 +163,22 @@ impl Compare {
         };
         place.write(&answer)?;
         Ok(if self.fail && !found.is_compatible() { Exit::No } else { Exit::Done })
+    }
+
+    /// The scores of participants whose results are in `unit`; an empty text if none is stated.
+    fn scored(
+        &self,
+        participants: Vec<Participant>,
+        unit: &str,
+    ) -> Result<ProficiencyTest, Failure> {
+        let unit = if unit.is_empty() { None } else { Unit::parse(unit).ok() };
+        let [assigned, of_assigned, sigma] =
+            [&self.assigned, &self.assigned_u, &self.sigma].map(|text| text.as_deref());
+        let assigned = gumption_foreign::assigned_by(assigned, of_assigned, unit.as_ref());
+        let sigma = gumption_foreign::sigma_by(sigma, unit.as_ref());
+        let choice = assigned.and_then(|assigned| Ok((assigned, sigma?)));
+        let (assigned, sigma) = choice.map_err(Failure::Argument)?;
+        proficiency::score(participants, assigned, sigma)
+            .map_err(|error| Failure::Argument(format!("{}: {error}", self.table.display())))
     }
 }

@@ -1,5 +1,7 @@
 //! `gumption new`: writes a new model file from options or from answers to questions.
 
+mod input;
+
 use std::io::{self, BufRead, Write};
 use std::path::{Path, PathBuf};
 
@@ -10,10 +12,10 @@ use super::exit::{say, say_line};
 use super::output::AnswerPlace;
 use super::{CommandLine, Exit, Failure, output};
 use gumption_engine::model::formula::Formula;
-use gumption_files::schema;
 use gumption_report::plain;
 use gumption_text::DiagnosticKind;
-use gumption_units::{Unit, nearest};
+use gumption_units::nearest;
+use input::{blank, described, is_distribution, unit_of, value};
 
 /// Write a new model file. Without --equation the command asks questions.
 #[derive(Debug, Args)]
@@ -25,8 +27,9 @@ pub(super) struct New {
     /// names others
     #[arg(long, value_name = "NAME=FORMULA")]
     equation: Vec<String>,
-    /// An input, NAME=UNIT,DISTRIBUTION,KEY=VALUE,...: `R=ohm,normal,mean=100,std=0.2`; readings
-    /// as values=9.8 9.9 10.1
+    /// An input, NAME=VALUE as in a file, `V=5.0112(23) V` or `V=5.01 V ± 0.02 V (k=2)`; or
+    /// NAME=UNIT,DISTRIBUTION,KEY=VALUE,...: `R=ohm,normal,mean=100,std=0.2`, readings as
+    /// values=9.8 9.9 10.1
     #[arg(long, value_name = "NAME=...")]
     input: Vec<String>,
     /// An output and its unit, NAME=UNIT
@@ -42,14 +45,15 @@ pub(super) struct New {
 struct Draft {
     title: Option<String>,
     equations: Vec<(String, String)>,
-    inputs: Vec<(String, Map<String, Value>)>,
+    inputs: Vec<(String, Value)>,
     outputs: Vec<(String, String)>,
 }
 
 impl New {
     pub(super) fn execute(&self, program: &CommandLine) -> Result<Exit, Failure> {
         let [file] = output::open([("--output", output::to_file(self.output.as_deref()))], &[])?;
-        let draft = if self.equation.is_empty() { self.asked()? } else { self.told()? };
+        let draft =
+            if self.equation.is_empty() { self.asked(program)? } else { self.told(program)? };
         let missing = draft.missing();
         let text = draft.text();
         // given content must be valid; missing content is reported
@@ -92,7 +96,7 @@ impl New {
     }
 
     /// The draft given by the options.
-    fn told(&self) -> Result<Draft, Failure> {
+    fn told(&self, program: &CommandLine) -> Result<Draft, Failure> {
         let mut draft = Draft { title: self.title.clone(), ..Draft::default() };
         for equation in &self.equation {
             draft.equation(equation).map_err(Failure::Argument)?;
@@ -116,14 +120,15 @@ impl New {
         }
         let needed = draft.quantities();
         for input in &self.input {
-            let (name, said) = halves(input, "--input", "NAME=UNIT,DISTRIBUTION,KEY=VALUE")?;
+            let (name, said) =
+                halves(input, "--input", "NAME=VALUE or NAME=UNIT,DISTRIBUTION,KEY=VALUE")?;
             if !needed.iter().any(|of| of == name) {
                 let near = nearest(name, needed.iter().map(String::as_str));
                 let hint =
                     near.map_or_else(String::new, |near| format!("; did you mean `{near}`?"));
                 return Err(Failure::Argument(format!("no equation uses `{name}`{hint}")));
             }
-            let input = described(said)
+            let input = input::told(program.files(), name, said)
                 .map_err(|why| Failure::Argument(format!("--input {name}: {why}")))?;
             if draft.inputs.iter().any(|(of, _)| of == name) {
                 return Err(Failure::Argument(format!("--input {name} is given twice")));
@@ -135,7 +140,7 @@ impl New {
     }
 
     /// The draft given on standard input, question by question.
-    fn asked(&self) -> Result<Draft, Failure> {
+    fn asked(&self, program: &CommandLine) -> Result<Draft, Failure> {
         if !(self.input.is_empty() && self.unit.is_empty()) {
             let message =
                 "--input and --unit require --equation; without it the command asks for everything";
@@ -144,13 +149,17 @@ impl New {
         let mut ask = Questions { answers: io::stdin().lock() };
         let title = match &self.title {
             Some(title) => title.clone(),
-            None => ask.line("Title:")?,
+            None => ask.line("Title (may be empty):")?,
         };
         let mut draft = Draft { title: Some(title), ..Draft::default() };
         say("Equations, NAME = FORMULA, one per line; finish with an empty line.\n");
         loop {
-            let line = ask.line("equation:")?;
-            if line.is_empty() && !draft.equations.is_empty() {
+            let question = "equation:";
+            let line = ask.line(question)?;
+            if line.is_empty() {
+                if draft.equations.is_empty() {
+                    return Err(unanswered(question));
+                }
                 break;
             }
             if let Err(why) = draft.equation(&line) {
@@ -163,19 +172,46 @@ impl New {
             })?;
             draft.outputs.push((last, unit));
         }
-        for name in draft.quantities() {
-            let unit = ask.until(&format!("unit of {name}:"), |text| {
-                unit_of(text).map(|()| text.to_owned())
-            })?;
-            let question = format!(
-                "{name}: DISTRIBUTION,KEY=VALUE,... such as `normal,mean=5,std=0.1`, \
-                 `rectangular,mean=5,half_width=0.1`, `readings,values=4.9 5.1 5.0`:"
+        let names = draft.quantities();
+        if !names.is_empty() {
+            say(
+                "Inputs: a value with its uncertainty, such as `5.0112(23) V` or `5.01 V ± 0.02 V \
+                 (k=2)`; or a distribution, such as `rectangular, mean=5, half_width=0.1` or \
+                 `readings, values=4.9 5.1 5.0`.\n",
             );
-            let input = ask.until(&question, |text| described(&format!("{unit},{text}")))?;
+        }
+        for name in names {
+            let input = ask.until(&format!("{name}:"), |text| {
+                if is_distribution(text) {
+                    // the unit comes after it
+                    described(&format!("1,{text}"))
+                } else {
+                    value(program.files(), &name, text)
+                }
+            })?;
+            let input = match input {
+                Value::Object(mut keys) => {
+                    let unit = ask
+                        .until(&format!("unit of {name} (1 if dimensionless):"), |text| {
+                            unit_of(text).map(|()| text.to_owned())
+                        })?;
+                    keys.insert("unit".to_owned(), json!(unit));
+                    Value::Object(keys)
+                }
+                value => value,
+            };
             draft.inputs.push((name, input));
         }
         Ok(draft)
     }
+}
+
+/// The message about a question without an answer.
+fn unanswered(question: &str) -> Failure {
+    Failure::Argument(format!(
+        "\"{question}\" has no answer, so that no file is written; `gumption new --equation ...` takes \
+         the answers as options, and leaves blank what is not known"
+    ))
 }
 
 /// Questions on standard error, answers on standard input.
@@ -190,23 +226,24 @@ impl<R: BufRead> Questions<R> {
         let mut line = String::new();
         let read = self.answers.read_line(&mut line);
         match read {
-            Ok(0) => Err(Failure::Argument(format!(
-                "the answers ended at \"{question}\"; `gumption new --equation ...` takes the \
-                 answers as options"
-            ))),
+            Ok(0) => Err(unanswered(question)),
             Ok(_) => Ok(line.trim().to_owned()),
             Err(error) => Err(Failure::System(format!("cannot read the answers: {error}"))),
         }
     }
 
-    /// Repeats a question until the answer is valid.
+    /// Repeats a question until the answer is valid; an empty answer is an error.
     fn until<T>(
         &mut self,
         question: &str,
         read: impl Fn(&str) -> Result<T, String>,
     ) -> Result<T, Failure> {
         loop {
-            match read(&self.line(question)?) {
+            let line = self.line(question)?;
+            if line.is_empty() {
+                return Err(unanswered(question));
+            }
+            match read(&line) {
                 Ok(answer) => return Ok(answer),
                 Err(why) => say_line(&why),
             }
@@ -262,8 +299,9 @@ impl Draft {
 
     /// Missing values: `mean and std of voltage`.
     fn missing(&self) -> Vec<String> {
-        let of = |(name, keys): &(String, Map<String, Value>)| {
-            let missing = keys.iter().filter(|(_, value)| value.is_null());
+        let of = |(name, input): &(String, Value)| {
+            let missing =
+                input.as_object().into_iter().flatten().filter(|(_, value)| value.is_null());
             let missing: Vec<String> = missing.map(|(key, _)| format!("`{key}`")).collect();
             (!missing.is_empty())
                 .then(|| format!("{} of `{name}`", gumption_units::listed(&missing, " and ")))
@@ -287,8 +325,7 @@ impl Draft {
         if let Some(title) = self.title.as_ref().filter(|title| !title.is_empty()) {
             file.insert("title".into(), json!(title));
         }
-        let inputs =
-            self.inputs.iter().map(|(name, keys)| (name.clone(), Value::Object(keys.clone())));
+        let inputs = self.inputs.iter().cloned();
         file.insert("inputs".into(), Value::Object(inputs.collect()));
         let equations = self.equations.iter().map(|(name, text)| (name.clone(), json!(text)));
         file.insert("equations".into(), Value::Object(equations.collect()));
@@ -296,70 +333,6 @@ impl Draft {
         file.insert("outputs".into(), Value::Object(outputs.collect()));
         format!("{:#}\n", Value::Object(file))
     }
-}
-
-/// An input without values.
-fn blank() -> Map<String, Value> {
-    let keys = [
-        ("unit", Value::Null),
-        ("distribution", json!("normal")),
-        ("mean", Value::Null),
-        ("std", Value::Null),
-    ];
-    keys.into_iter().map(|(key, value)| (key.to_owned(), value)).collect()
-}
-
-/// An input as told: `ohm,normal,mean=100,std=0.2`.
-fn described(said: &str) -> Result<Map<String, Value>, String> {
-    let mut parts = said.split(',').map(str::trim);
-    let unit = parts.next().unwrap_or_default();
-    unit_of(unit)?;
-    let shapes = schema::distributions();
-    let name = parts.next().unwrap_or_default();
-    let known = |name: &str| shapes.iter().find(|of| of.name == name || of.aliases.contains(&name));
-    let Some(shape) = known(name) else {
-        let names = shapes.iter().flat_map(|of| std::iter::once(&of.name).chain(of.aliases));
-        let hint = match nearest(name, names.copied()) {
-            Some(near) => format!("did you mean `{near}`?"),
-            None => "`gumption help distributions` lists them".to_owned(),
-        };
-        return Err(format!("there is no distribution `{name}`; {hint}"));
-    };
-    let mut keys = Map::new();
-    keys.insert("unit".into(), json!(unit));
-    keys.insert("distribution".into(), json!(shape.name));
-    for part in parts {
-        let Some((key, value)) = part.split_once('=') else {
-            return Err(format!("`{part}` is not of the form KEY=VALUE"));
-        };
-        let (key, value) = (key.trim(), value.trim());
-        if !shape.keys.contains(&key) && key != "about" {
-            let near = nearest(key, shape.keys.iter().copied());
-            let hint = near.map_or_else(
-                || format!("it has {}", shape.keys.join(", ")),
-                |near| format!("did you mean `{near}`?"),
-            );
-            return Err(format!("`{}` has no key `{key}`; {hint}", shape.name));
-        }
-        if keys.insert(key.to_owned(), read(key, value)).is_some() {
-            return Err(format!("`{key}` is given twice"));
-        }
-    }
-    Ok(keys)
-}
-
-/// A value as JSON: a number, a list of numbers if the key holds one, else a text.
-fn read(key: &str, value: &str) -> Value {
-    let number = |text: &str| serde_json::from_str::<serde_json::Number>(text).map(Value::Number);
-    if key == "values" {
-        let list: Result<Vec<Value>, _> = value.split_whitespace().map(number).collect();
-        return list.map_or_else(|_| json!(value), Value::Array);
-    }
-    number(value).unwrap_or_else(|_| json!(value))
-}
-
-fn unit_of(text: &str) -> Result<(), String> {
-    Unit::parse(text).map(|_| ()).map_err(|why| why.to_string())
 }
 
 /// A name and the text after its equals sign.

@@ -10,7 +10,8 @@ mod import;
 mod tests;
 
 pub use comparison::{
-    ComparisonOptions, ComparisonTable, ReadComparison, read_comparison, read_comparison_text,
+    ComparisonOptions, ComparisonTable, ReadComparison, assigned_by, read_comparison,
+    read_comparison_text, sigma_by,
 };
 pub use import::{
     Coefficients, ImportOptions, ImportedBudget, Question, RefusedBudget, import_budget,

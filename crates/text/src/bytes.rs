@@ -71,6 +71,14 @@ pub fn of(reader: impl Read, most: u64) -> Result<Vec<u8>, ReadError> {
     Ok(bytes)
 }
 
+/// Whether a file is an OpenDocument archive: its first entry is its type, not compressed
+/// (OpenDocument 1.3, part 2, 3.3).
+fn is_open_document(bytes: &[u8]) -> bool {
+    const TYPE: &[u8] = b"mimetypeapplication/vnd.oasis.opendocument";
+    // the name of the first entry follows 30 bytes
+    bytes.starts_with(b"PK\x03\x04") && bytes.get(30..).is_some_and(|rest| rest.starts_with(TYPE))
+}
+
 /// The text of a file: UTF-8, or UTF-16 with its byte-order mark, as Windows PowerShell writes it.
 ///
 /// # Errors
@@ -82,6 +90,11 @@ pub fn text(bytes: &[u8]) -> Result<Cow<'_, str>, String> {
         [0xfe, 0xff, rest @ ..] => (rest, u16::from_be_bytes),
         _ => {
             let text = std::str::from_utf8(bytes).map_err(|_| {
+                if is_open_document(bytes) {
+                    return "it is a workbook of the format .ods, or another OpenDocument file, which \
+                            cannot be read: save it as .xlsx, or its sheet as .csv"
+                        .to_owned();
+                }
                 // zip archives, and therefore workbooks, begin like this
                 if bytes.starts_with(b"PK\x03\x04") {
                     return "it is a workbook, or another archive: `gumption import` makes a model file of a \
@@ -119,6 +132,12 @@ mod tests {
         assert!(text(b"\xff\xfea").unwrap_err().contains("UTF-16"));
         assert!(text(b"\xff\xfe\x00\xd8").unwrap_err().contains("UTF-16"));
         assert!(text(b"\x80").unwrap_err().contains("UTF-8"));
+        let archive =
+            |entry: &str| [b"PK\x03\x04".as_slice(), &[0xff; 26], entry.as_bytes()].concat();
+        assert!(text(&archive("[Content_Types].xml")).unwrap_err().contains("gumption import"));
+        let sheet = archive("mimetypeapplication/vnd.oasis.opendocument.spreadsheet");
+        let said = text(&sheet).unwrap_err();
+        assert!(said.contains(".ods") && !said.contains("gumption import"), "{said}");
     }
 
     #[test]

@@ -230,25 +230,39 @@ def compare(
     against: str | os.PathLike[str] | None = None,
     correlations: str | os.PathLike[str] | None = None,
     rounding: bool = False,
+    scheme: str | None = None,
+    assigned: float | str | None = None,
+    assigned_u: float | str | None = None,
+    sigma: float | str | None = None,
 ) -> Answer:
-    """Compare results in pairs (normalized errors), or results of many laboratories.
+    """Compare results in pairs (normalized errors) or of many laboratories, or score a proficiency test.
 
     Parameters
     ----------
     table : path-like or DataFrame or mapping
         Columns ``label, x1, U1, x2, U2`` and optionally ``k1, k2, r``; for laboratories ``label, x,
-        U`` and optionally ``k``. A file (CSV, XLSX), or the columns themselves.
+        U`` and optionally ``k``; for a proficiency test ``label, x`` and optionally ``U, k``. A file
+        (CSV, XLSX), or the columns themselves.
     against : path-like, optional
         Take the second results from the JSON answer of a run.
     correlations : path-like, optional
         Correlation coefficients between laboratories.
     rounding : bool, default False
         Show the range of the normalized error that the printed digits allow.
+    scheme : "iso13528", optional
+        Score the results as those of a proficiency test by ISO 13528.
+    assigned : "algorithm-a" or "median" or float or str, optional
+        The assigned value; a number is in the unit of the results, a text such as ``"10.5 mg"`` has its
+        own.
+    assigned_u : float or str, optional
+        The standard uncertainty of a stated assigned value.
+    sigma : "algorithm-a" or "niqr" or float or str, optional
+        The standard deviation for proficiency assessment; ``"5 %"`` is a percentage of the assigned value.
 
     Returns
     -------
     Answer
-        Its `Answer.yes` says whether all are compatible.
+        Its `Answer.yes` says whether all are compatible, or no participant has an action signal.
     """
     text = None
     if isinstance(table, (str, os.PathLike)):
@@ -256,6 +270,7 @@ def compare(
     else:
         path, text = "-", _comparison(table)
     options = _options(against=against, correlations=correlations, rounding=rounding, fail=True)
+    options += _options(scheme=scheme, assigned=assigned, assigned_u=assigned_u, sigma=sigma)
     return Answer(["compare", path, *options], None, text)
 
 

@@ -1,15 +1,19 @@
 //! Compares results for one quantity: in pairs ([`pair`]), and of many laboratories with a
-//! reference value ([`laboratories`]; [`consensus`] if they are inconsistent).
+//! reference value ([`laboratories`]; [`consensus`] if they are inconsistent) or with an assigned value
+//! ([`proficiency`], from [`robust`] estimates).
 
 pub mod consensus;
 mod definite;
 pub mod laboratories;
 pub mod pair;
+pub mod proficiency;
+pub mod robust;
 mod subset;
 
 pub use consensus::{ConsensusValue, Estimator, HartungKnapp};
 pub use laboratories::{Comparison, DegreeOfEquivalence, Impossible, Laboratory};
 pub use pair::{ComparedPair, ResultPair, StatedResult};
+pub use proficiency::{AssignedBy, Participant, ProficiencyTest, SigmaBy, Signal};
 pub use subset::Ties;
 
 use gumption_engine::model::Tolerance;

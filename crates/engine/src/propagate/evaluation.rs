@@ -10,7 +10,7 @@ use super::Control;
 use super::agreement::{self, Agreement};
 use super::branch;
 use super::conformity::{Conformity, ErrorLaw};
-use super::evaluation_error::{EvaluationError, named_values};
+use super::evaluation_error::{EvaluationError, LinearResult, named_values};
 use super::exact::{self, Noiseless};
 use super::figures::{
     CapabilityStatement, Evaluation, FEW_ROWS, JointlyDrawn, NOTEWORTHY, OutputEvaluation,
@@ -238,7 +238,8 @@ fn evaluate_row(
         stopped = finished.stopped;
         if let Some(undefined) = finished.undefined {
             if undefined.count as f64 > task.settings.allowed_undefined * undefined.trials as f64 {
-                return Err(explain(task, number, row, undefined));
+                let by_law = by_law(task, &linear.estimates, &gums);
+                return Err(explain(task, (number, row), undefined, by_law));
             }
             result.undefined = Some(undefined);
         }
@@ -659,8 +660,28 @@ fn fewest_dof(reach: &[bool], row: &Row) -> f64 {
         .fold(f64::INFINITY, f64::min)
 }
 
+/// What the law of propagation gives for each output; empty if an estimate is not finite.
+fn by_law(task: &Task, estimates: &[f64], gums: &[Option<Gum>]) -> Vec<LinearResult> {
+    if estimates.iter().any(|estimate| !estimate.is_finite()) {
+        return Vec::new();
+    }
+    let outputs = task.model.outputs.iter().zip(estimates).zip(gums);
+    let result = |((output, estimate), gum): ((&Output, &f64), &Option<Gum>)| LinearResult {
+        name: output.quantity.name.clone(),
+        unit: output.quantity.unit.to_string(),
+        estimate: gum.as_ref().map_or(*estimate, |gum| gum.estimate),
+        standard_uncertainty: gum.as_ref().map(|gum| gum.standard_uncertainty),
+    };
+    outputs.map(result).collect()
+}
+
 /// Names the first undefined trial's inputs and operation.
-fn explain(task: &Task, number: usize, row: &Row, undefined: Undefined) -> EvaluationError {
+fn explain(
+    task: &Task,
+    (number, row): (usize, &Row),
+    undefined: Undefined,
+    by_law: Vec<LinearResult>,
+) -> EvaluationError {
     let mut drawn = undefined.first.iter().copied();
     let mut inputs = Vec::new();
     let mut values = Vec::with_capacity(task.model.program.variables());
@@ -675,7 +696,7 @@ fn explain(task: &Task, number: usize, row: &Row, undefined: Undefined) -> Evalu
     values.extend(&row.conditions);
     inputs.extend(swept(task, row));
     let operation = task.model.program.first_undefined(&values);
-    EvaluationError::Undefined { row: number, undefined, inputs, operation }
+    EvaluationError::Undefined { row: number, undefined, inputs, operation, by_law }
 }
 
 /// Names and values of the conditions of a row, where there are several rows.

@@ -42,7 +42,7 @@ pub use control::Control;
 pub use evaluation::in_pool;
 pub use evaluation::joint;
 pub use evaluation::{evaluate, trial_hash};
-pub use evaluation_error::EvaluationError;
+pub use evaluation_error::{EvaluationError, LinearResult};
 pub use exact::{Accuracy, Noiseless, Scatter};
 pub use figures::{CapabilityStatement, Evaluation, JointlyDrawn, OutputEvaluation, RowEvaluation};
 pub use inherited::Inherited;

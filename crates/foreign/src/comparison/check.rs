@@ -7,9 +7,34 @@ use super::headings::Role;
 const OF_PAIRS: &str = "label, x1, U1, x2, U2";
 const OF_LABORATORIES: &str = "label, x, U";
 
+/// What the rows of a table are.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum TableKind {
+    /// Two results.
+    Pairs,
+    /// One result, of which the other one comes from a run.
+    AgainstRun,
+    /// The result of a laboratory.
+    Laboratories,
+    /// The result of a participant, perhaps without an uncertainty.
+    Proficiency,
+}
+
+impl TableKind {
+    /// The numbers of the results that a row has.
+    fn results(self) -> &'static [u8] {
+        match self {
+            Self::Pairs => &[1, 2],
+            Self::AgainstRun => &[1],
+            Self::Laboratories | Self::Proficiency => &[0],
+        }
+    }
+}
+
 impl ComparisonReader<'_> {
-    /// Whether the columns of these results are there, and none that contradicts them.
-    pub(super) fn check_columns(&self, results: &[u8]) -> Option<()> {
+    /// Whether the columns of a table of this kind are there, and none that contradicts them.
+    pub(super) fn check_columns(&self, kind: TableKind) -> Option<()> {
+        let results = kind.results();
         let has = |role: Role| self.columns.has(role);
         let mut missing = Vec::new();
         if !has(Role::Label) {
@@ -20,22 +45,41 @@ impl ComparisonReader<'_> {
             if !has(Role::Value(*result)) {
                 missing.push(format!("x{number}"));
             }
-            if !has(Role::Expanded(*result)) && !has(Role::Standard(*result)) {
+            let is_uncertain = has(Role::Expanded(*result)) || has(Role::Standard(*result));
+            if !is_uncertain && kind != TableKind::Proficiency {
                 missing.push(format!("U{number}"));
             }
         }
         if !missing.is_empty() {
+            let kinds = match kind {
+                TableKind::Proficiency => {
+                    "a table of a proficiency test has label, x (and perhaps U, k)".to_owned()
+                }
+                _ => format!(
+                    "a table of pairs has {OF_PAIRS} (and perhaps k1, k2, r), one of laboratories \
+                     {OF_LABORATORIES} (and perhaps k), one of a proficiency test (`--scheme \
+                     iso13528`) label, x (and perhaps U, k)"
+                ),
+            };
             self.fail(format!(
-                "the table has no column {}; a table of pairs has {} (and perhaps k1, k2, r), one of \
-                 laboratories {} (and perhaps k). Words such as `Laboratory`, `Value`, `Standard \
+                "the table has no column {}; {kinds}. Words such as `Laboratory`, `Value`, `Standard \
                  uncertainty`, and `Lab value`, `U_lab`, `Ref. value`, `U_ref` are understood",
-                missing.join(", "),
-                OF_PAIRS,
-                OF_LABORATORIES
+                missing.join(", ")
             ));
             return None;
         }
-        let is_of_pairs = results != [0];
+        let of_uncertainty = [Role::Expanded(0), Role::Standard(0)].into_iter().any(has);
+        if let Some(place) = self.columns.place(Role::Factor(0)).filter(|_| !of_uncertainty)
+            && kind == TableKind::Proficiency
+        {
+            let name = self.heading(place);
+            self.fail(format!(
+                "the column `{name}` is the coverage factor of an uncertainty, and the table has no \
+                 column `U`: add it, or take the factors out"
+            ));
+            return None;
+        }
+        let is_of_pairs = matches!(kind, TableKind::Pairs | TableKind::AgainstRun);
         let stray = |result: u8| {
             [
                 Role::Value(result),

@@ -9,6 +9,7 @@ mod correlations;
 mod headings;
 mod numbers;
 mod party;
+mod proficiency;
 mod sheet;
 mod stated;
 #[cfg(test)]
@@ -18,8 +19,9 @@ use std::collections::BTreeSet;
 use std::path::Path;
 
 use super::answer;
+use check::TableKind;
 use columns::Columns;
-use gumption_analysis::compare::{Laboratory, ResultPair, StatedResult};
+use gumption_analysis::compare::{Laboratory, Participant, ResultPair, StatedResult};
 use gumption_engine::fact;
 use gumption_engine::fact::{Argument, Fact};
 use gumption_engine::task::Warning;
@@ -29,6 +31,7 @@ use gumption_text::{Collector, DiagnosticKind, Diagnostics, Place, SourceText, b
 use gumption_units::Unit;
 use headings::Role;
 use numbers::{Number, Numbers};
+pub use proficiency::{assigned_by, sigma_by};
 use sheet::Content;
 
 /// A table that was read and found right.
@@ -43,6 +46,8 @@ pub enum ComparisonTable {
         /// Their correlation coefficients, row by row; empty where they are independent.
         correlations: Vec<Vec<f64>>,
     },
+    /// The participants of a proficiency test, in order: columns `label`, `x` and perhaps `U`, `k`.
+    Proficiency(Vec<Participant>),
 }
 
 /// A table, and what is worth knowing of how it was read.
@@ -50,7 +55,8 @@ pub enum ComparisonTable {
 pub struct ReadComparison {
     /// The results.
     pub table: ComparisonTable,
-    /// The unit of each row, in which it is compared; an empty text where none is stated.
+    /// The unit of each row, in which it is compared; an empty text where none is stated. For a
+    /// proficiency test that of all rows.
     pub units: Vec<String>,
     /// Columns that are not read, uncertainties that are shares, the sheet.
     pub warnings: Vec<Warning>,
@@ -65,6 +71,8 @@ pub struct ComparisonOptions<'a> {
     pub correlations: Option<&'a Path>,
     /// The sheet of a workbook; without it the one that is shown and holds a table of results.
     pub sheet: Option<&'a str>,
+    /// Whether the results are those of a proficiency test.
+    pub is_proficiency_test: bool,
 }
 
 /// At most so many laboratories: their covariance matrix is decomposed again and again.
@@ -81,7 +89,7 @@ pub fn read_comparison(
     let name = path.display().to_string();
     let content = bytes::of_file(path, bytes::MOST)
         .map_err(|message| DiagnosticKind::Unreadable { message })
-        .and_then(|bytes| sheet::results(path, bytes, options.sheet));
+        .and_then(|bytes| sheet::results(path, bytes, options));
     match content {
         Ok(content) => read(&name, content, options),
         Err(kind) => {
@@ -138,7 +146,13 @@ fn read(
         let is_of_pairs = columns.has(Role::Value(1));
         let (shares, units, moved) = (BTreeSet::new(), Vec::new(), Vec::new());
         let mut reader = ComparisonReader { numbers, columns, shares, units, moved, options };
-        let table = if is_of_pairs { reader.pairs(answer.as_ref()) } else { reader.laboratories() };
+        let table = if options.is_proficiency_test {
+            reader.proficiency_test()
+        } else if is_of_pairs {
+            reader.pairs(answer.as_ref())
+        } else {
+            reader.laboratories()
+        };
         warnings.extend(reader.relative());
         warnings.extend(reader.turned());
         Some((table?, reader.units))
@@ -195,8 +209,8 @@ impl ComparisonReader<'_> {
                 path.display()
             ));
         }
-        let needed: &[u8] = if answer.is_some() { &[1] } else { &[1, 2] };
-        self.check_columns(needed)?;
+        let kind = if answer.is_some() { TableKind::AgainstRun } else { TableKind::Pairs };
+        self.check_columns(kind)?;
         let second = [Role::Value(2), Role::Expanded(2), Role::Standard(2), Role::Factor(2)];
         if let (Some(_), Some(place)) =
             (answer, second.into_iter().find_map(|role| self.columns.place(role)))
@@ -274,7 +288,7 @@ impl ComparisonReader<'_> {
             ));
             return None;
         }
-        self.check_columns(&[0])?;
+        self.check_columns(TableKind::Laboratories)?;
         let count = self.numbers.table.rows();
         if count > MOST_LABORATORIES {
             let kind = DiagnosticKind::TooMany {

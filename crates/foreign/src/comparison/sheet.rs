@@ -3,6 +3,7 @@
 use std::borrow::Cow;
 use std::path::Path;
 
+use super::ComparisonOptions;
 use super::headings::{self, HeadingMeaning, Role};
 use gumption_engine::fact::Fact;
 use gumption_text::workbook::choice::{self, Wanted};
@@ -54,7 +55,7 @@ const MATRIX: Wanted = Wanted { a: "a matrix", one: "one matrix", has_option: fa
 pub(super) fn results(
     path: &Path,
     content: Vec<u8>,
-    sheet: Option<&str>,
+    options: ComparisonOptions<'_>,
 ) -> Result<Content, DiagnosticKind> {
     let holds = |header: &[String]| {
         let of = |role: fn(&Role) -> bool| {
@@ -69,9 +70,11 @@ pub(super) fn results(
         let is_deviation =
             |cell: &String| matches!(headings::said(cell), HeadingMeaning::Deviation(_));
         let has_value = of(|role| matches!(role, Role::Value(_)));
+        let has_label = of(|role| matches!(role, Role::Label));
+        let is_uncertain = is_uncertain || options.is_proficiency_test && has_label;
         (has_value || header.iter().any(is_deviation)) && is_uncertain
     };
-    read(path, content, sheet, &RESULTS, holds)
+    read(path, content, options.sheet, &RESULTS, holds)
 }
 
 /// The matrix of correlation coefficients of these laboratories in a file.

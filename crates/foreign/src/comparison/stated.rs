@@ -24,7 +24,7 @@ pub(super) fn differs(a: f64, b: f64) -> bool {
 
 impl ComparisonReader<'_> {
     /// A number with its unit: that of its cell, of its heading or of the column of units.
-    fn in_unit(&self, row: usize, place: usize) -> Option<Number> {
+    pub(super) fn in_unit(&self, row: usize, place: usize) -> Option<Number> {
         self.in_unit_of(row, place, self.numbers.table.text(row, place))
     }
 

@@ -33,19 +33,34 @@ impl ReadSheet<'_> {
         (0..self.cells.lines()).filter_map(of_line).collect()
     }
 
-    /// The first line of words above the table; else what the file is called.
+    /// The title above the table: what stands behind a label, `Title:`, else the first line of words;
+    /// else what the file is called.
     pub(super) fn title(&self, header: &Header, file: &str) -> String {
-        let texts = (0..header.first).filter_map(|line| {
-            let mut held =
-                self.cells.row(line).iter().map(|cell| cell.trim()).filter(|cell| !cell.is_empty());
-            let first = held.next()?;
-            let is_title = held.next().is_none()
-                && !first.contains('=')
-                && first.chars().filter(|c| c.is_alphabetic()).count() > 2
-                && !columns::is_of_correlation(first);
-            is_title.then(|| first.to_owned())
+        let lines: Vec<Vec<&str>> = (0..header.first)
+            .map(|line| {
+                let cells = self.cells.row(line).iter().map(|cell| cell.trim());
+                cells.filter(|cell| !cell.is_empty()).collect()
+            })
+            .collect();
+        let labelled = lines.iter().find_map(|held| match held[..] {
+            [label, title] => is_label(label).then_some(title),
+            [only] => {
+                only.split_once(':').filter(|(label, _)| is_label(label)).map(|(_, title)| title)
+            }
+            _ => None,
         });
-        texts.into_iter().next().unwrap_or_else(|| file.to_owned())
+        let of_words = || {
+            lines.iter().find_map(|held| match held[..] {
+                [only] => is_title(only).then_some(only),
+                _ => None,
+            })
+        };
+        labelled
+            .map(str::trim)
+            .filter(|title| !title.is_empty())
+            .or_else(of_words)
+            .unwrap_or(file)
+            .to_owned()
     }
 
     /// Asks where a line beside the table states the unit of all values, and it is not known.
@@ -97,6 +112,19 @@ impl ReadSheet<'_> {
             }
         }
     }
+}
+
+/// Whether a cell is the label of a title: `Title`, `Titel:`.
+fn is_label(cell: &str) -> bool {
+    let word = cell.trim_end_matches(':').trim().to_lowercase();
+    words::of("title:label").any(|known| known == word)
+}
+
+/// Whether a line of one cell is a title.
+fn is_title(cell: &str) -> bool {
+    !cell.contains('=')
+        && cell.chars().filter(|c| c.is_alphabetic()).count() > 2
+        && !columns::is_of_correlation(cell)
 }
 
 /// The unit that a text states for all values, or the word in its place that is none.

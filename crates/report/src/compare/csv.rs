@@ -1,6 +1,6 @@
 //! One line for each comparison, in full precision, for spreadsheets.
 
-use super::Compare;
+use super::{Compare, proficiency};
 use crate::csv::{number, of_records, text};
 
 /// The rows as comma-separated values; for laboratories those of the degrees of equivalence.
@@ -56,6 +56,7 @@ pub fn csv(compare: &Compare) -> String {
                 records.push(record);
             }
         }
+        Compare::Proficiency { test, unit } => records = proficiency::records(test, unit),
     }
     of_records(|writer| records.iter().try_for_each(|record| writer.write_record(record)))
 }

@@ -3,8 +3,8 @@
 use plotters::element::{Circle, Rectangle};
 use plotters::style::Color;
 
-use super::Compare;
 use super::sheets::has_name;
+use super::{Compare, proficiency};
 use crate::html::Drawing;
 use crate::number::{exact, with_uncertainty};
 use crate::plain;
@@ -21,9 +21,9 @@ const RIGHT: f64 = 24.0;
 /// A row of the figure: name, value, expanded uncertainty, and whether it is highlighted.
 type Bar = (String, f64, f64, bool);
 
-/// Values of laboratories with their U and the reference band, or differences with their U and
-/// zero.
-pub(super) fn draw(compare: &Compare) -> Drawing {
+/// Values of laboratories with their U and the reference band, differences with their U and zero, or
+/// scores; `None` without a score.
+pub(super) fn draw(compare: &Compare) -> Option<Drawing> {
     match compare {
         Compare::Pairs { compared, units, .. } => {
             // differences in several units have no common axis
@@ -34,7 +34,7 @@ pub(super) fn draw(compare: &Compare) -> Drawing {
             let caption = "Difference of the two results with its expanded uncertainty (k = 2). A bar \
                            that does not reach 0 (vermilion) is a pair that is not compatible.";
             let label = of_unit("difference", unit.map_or("", String::as_str));
-            strip(&bars.collect::<Vec<Bar>>(), [0.0, 0.0], &label, caption)
+            Some(strip(&bars.collect::<Vec<Bar>>(), [0.0, 0.0], &label, caption))
         }
         Compare::Laboratories { comparison, unit } => {
             let bars = comparison
@@ -46,8 +46,10 @@ pub(super) fn draw(compare: &Compare) -> Drawing {
             let caption = "Results with their expanded uncertainties as stated, and the reference \
                            value with its own (band, k = 2). Vermilion: not in the reference value.";
             let band = [of.value - half, of.value + half];
-            strip(&bars.collect::<Vec<Bar>>(), band, &of_unit("result", unit), caption)
+            let bars: Vec<Bar> = bars.collect();
+            Some(strip(&bars, band, &of_unit("result", unit), caption))
         }
+        Compare::Proficiency { test, .. } => proficiency::figure(test),
     }
 }
 

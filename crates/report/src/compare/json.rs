@@ -1,6 +1,6 @@
 //! The answer for programs.
 
-use super::Compare;
+use super::{Compare, proficiency};
 use crate::answer::{list, object, pretty};
 use gumption_analysis::compare::laboratories::ReferenceValue;
 use gumption_analysis::compare::{
@@ -10,8 +10,8 @@ use gumption_engine::task::Warning;
 use serde_json::Value;
 
 /// The comparison as JSON, ending in a newline.
-pub fn json(compare: &Compare, warnings: &[Warning]) -> String {
-    let warnings = ("warnings", crate::words::listed(warnings));
+pub fn json(compare: &Compare, said: &[Warning]) -> String {
+    let warnings = ("warnings", crate::words::listed(said));
     let version = ("gumption", Value::from(env!("CARGO_PKG_VERSION")));
     match compare {
         Compare::Pairs { compared, units, rounding, .. } => {
@@ -24,6 +24,7 @@ pub fn json(compare: &Compare, warnings: &[Warning]) -> String {
             entries.push(warnings);
             pretty(&object(entries))
         }
+        Compare::Proficiency { test, unit } => proficiency::json(test, unit, said),
     }
 }
 

@@ -4,6 +4,7 @@ mod csv;
 mod figure;
 mod json;
 mod page;
+mod proficiency;
 mod sheets;
 mod words;
 
@@ -11,7 +12,7 @@ pub use csv::csv;
 pub use json::json;
 pub use page::{html, markdown, table};
 
-use gumption_analysis::compare::{ComparedPair, Comparison, ResultPair};
+use gumption_analysis::compare::{ComparedPair, Comparison, ProficiencyTest, ResultPair};
 
 /// A comparison.
 #[derive(Clone, Debug)]
@@ -34,15 +35,23 @@ pub enum Compare {
         /// The unit of all of them; empty if none is stated.
         unit: String,
     },
+    /// The scores of a proficiency test.
+    Proficiency {
+        /// The scores.
+        test: ProficiencyTest,
+        /// The unit of all results; empty if none is stated.
+        unit: String,
+    },
 }
 
 impl Compare {
-    /// Whether everything is compatible: all normalized errors at most 1, and laboratories
-    /// consistent.
+    /// Whether everything is compatible: all normalized errors at most 1, laboratories consistent,
+    /// and no action signal.
     pub fn is_compatible(&self) -> bool {
         match self {
             Self::Pairs { compared, .. } => compared.iter().all(ComparedPair::is_compatible),
             Self::Laboratories { comparison, .. } => comparison.all.is_consistent(),
+            Self::Proficiency { test, .. } => test.is_satisfied(),
         }
     }
 }

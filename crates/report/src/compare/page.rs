@@ -4,7 +4,7 @@ use std::borrow::Cow;
 
 use maud::html;
 
-use super::{Compare, figure, sheets, words};
+use super::{Compare, figure, proficiency, sheets, words};
 use crate::document::{self, Block, Document, sentence};
 use crate::html::{figure as numbered, page, table as html_table};
 use crate::sheet::Sheet;
@@ -17,13 +17,14 @@ fn sheet(compare: &Compare) -> Sheet {
             sheets::pairs((pairs, compared), units, *rounding)
         }
         Compare::Laboratories { comparison, unit } => sheets::laboratories(comparison, unit),
+        Compare::Proficiency { test, unit } => proficiency::sheet(test, unit),
     }
 }
 
 /// The values of every estimator, for laboratories.
 fn estimators(compare: &Compare) -> Option<(Sheet, String)> {
     match compare {
-        Compare::Pairs { .. } => None,
+        Compare::Pairs { .. } | Compare::Proficiency { .. } => None,
         Compare::Laboratories { comparison, .. } => {
             Some((sheets::estimators(comparison), words::recommended(comparison)))
         }
@@ -37,6 +38,7 @@ fn notes(compare: &Compare) -> Vec<Cow<'static, str>> {
         Compare::Laboratories { comparison, .. } => {
             vec![words::laboratories(comparison).into(), words::ESTIMATORS.into()]
         }
+        Compare::Proficiency { test, .. } => vec![proficiency::explained(test).into()],
     }
 }
 
@@ -65,7 +67,7 @@ pub fn html(compare: &Compare, warnings: &[Warning]) -> String {
             ul { @for said in crate::words::lines(warnings) { li { (sentence(&said)) } } }
         }
         (html_table(&sheet(compare)))
-        (numbered(1, &drawing))
+        @if let Some(drawing) = drawing { (numbered(1, &drawing)) }
         @if let Some((sheet, said)) = estimators(compare) { (html_table(&sheet)) p { (said) } }
         @for note in notes(compare) { p { (note) } }
         p.settings { "gumption " (env!("CARGO_PKG_VERSION")) }

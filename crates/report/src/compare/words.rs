@@ -1,7 +1,7 @@
 //! The sentences of a comparison.
 
-use super::Compare;
 use super::sheets::{in_unit, probability};
+use super::{Compare, proficiency};
 use crate::document::sentence;
 use crate::number::{degrees_of_freedom, rounded, significant, with_uncertainty};
 use crate::plain;
@@ -82,6 +82,7 @@ pub(super) fn title(compare: &Compare) -> String {
     match compare {
         Compare::Pairs { .. } => "Normalized errors".to_owned(),
         Compare::Laboratories { .. } => "Comparison of laboratories".to_owned(),
+        Compare::Proficiency { .. } => "Proficiency test".to_owned(),
     }
 }
 
@@ -106,6 +107,7 @@ pub(super) fn verdict(compare: &Compare) -> Vec<String> {
             }]
         }
         Compare::Laboratories { comparison, unit } => of_laboratories(comparison, unit),
+        Compare::Proficiency { test, unit } => proficiency::verdict(test, unit),
     }
 }
 

@@ -297,6 +297,24 @@ const FILES: Sentences = &[
     ("angle-branch.moved", "{angle} of `{name}` as {compared}"),
     ("columns-not-read", "the columns {names} are not read"),
     ("columns-not-read.one", "the column `{name}` is not read"),
+    ("assigned-value-chosen", "the assigned value is the robust average of algorithm A, because no other one is stated \
+        (`--assigned`)"),
+    ("sigma-chosen", "the standard deviation for proficiency assessment is the robust standard deviation of algorithm \
+        A, because no other one is stated (`--sigma`)"),
+    ("few-participants", "{count} participants are fewer than {least}: robust estimates of so few results are not \
+        reliable (ISO 13528:2022, D.1); state the assigned value and the standard deviation if they are \
+        known"),
+    ("algorithm-a-first-scale", "more than half of the results are equal: algorithm A started with the sample standard deviation \
+        instead of the median absolute deviation, which is 0 (ISO 13528:2022, C.3.1); check the results \
+        for outliers"),
+    ("sigma-zero", "the results do not scatter by this estimate, so that there are no scores; state the standard \
+        deviation for proficiency assessment, `--sigma VALUE`"),
+    ("sigma-zero.share", "the assigned value is 0, and so is a share of it, so that there are no scores; state the \
+        standard deviation for proficiency assessment in the unit of the results, `--sigma VALUE`"),
+    ("assigned-value-without-uncertainty", "the assigned value has no stated uncertainty (`--assigned-u`), so that there are no z', zeta \
+        and En scores"),
+    ("assigned-uncertainty-large", "the standard uncertainty of the assigned value is {ratio} of the standard deviation for \
+        proficiency assessment, above {limit}: z' scores decide (ISO 13528:2022, 9.2 and 9.5)"),
 ];
 
 /// Facts about recordings.

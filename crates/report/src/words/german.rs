@@ -322,6 +322,26 @@ const FILES: Sentences = &[
     ("angle-branch.moved", "{angle} von `{name}` als {compared}"),
     ("columns-not-read", "die Spalten {names} werden nicht gelesen"),
     ("columns-not-read.one", "die Spalte `{name}` wird nicht gelesen"),
+    ("assigned-value-chosen", "der zugewiesene Wert ist der robuste Mittelwert nach Algorithmus A, weil kein anderer angegeben \
+        ist (`--assigned`)"),
+    ("sigma-chosen", "die Standardabweichung für die Eignungsbeurteilung ist die robuste Standardabweichung nach \
+        Algorithmus A, weil keine andere angegeben ist (`--sigma`)"),
+    ("few-participants", "{count} Teilnehmer sind weniger als {least}: robuste Schätzwerte aus so wenigen Ergebnissen \
+        sind nicht zuverlässig (ISO 13528:2022, D.1); geben Sie den zugewiesenen Wert und die \
+        Standardabweichung an, wenn sie bekannt sind"),
+    ("algorithm-a-first-scale", "mehr als die Hälfte der Ergebnisse sind gleich: Algorithmus A begann mit der Standardabweichung \
+        der Stichprobe statt mit der medianen absoluten Abweichung, die 0 ist (ISO 13528:2022, C.3.1); \
+        prüfen Sie die Ergebnisse auf Ausreißer"),
+    ("sigma-zero", "die Ergebnisse streuen nach diesem Schätzwert nicht, sodass es keine Scores gibt; geben Sie die \
+        Standardabweichung für die Eignungsbeurteilung an, `--sigma WERT`"),
+    ("sigma-zero.share", "der zugewiesene Wert ist 0 und damit auch ein Anteil von ihm, sodass es keine Scores gibt; \
+        geben Sie die Standardabweichung für die Eignungsbeurteilung in der Einheit der Ergebnisse an, \
+        `--sigma WERT`"),
+    ("assigned-value-without-uncertainty", "für den zugewiesenen Wert ist keine Unsicherheit angegeben (`--assigned-u`), sodass es keine \
+        z'-, Zeta- und En-Scores gibt"),
+    ("assigned-uncertainty-large", "die Standardunsicherheit des zugewiesenen Werts ist das {ratio}-Fache der Standardabweichung \
+        für die Eignungsbeurteilung, mehr als {limit}: z'-Scores entscheiden (ISO 13528:2022, 9.2 und \
+        9.5)"),
 ];
 
 /// Facts about recordings.

@@ -157,6 +157,17 @@ fn words_of_the_sheet_are_kept() {
     assert_eq!(model["inputs"]["a"]["about"], "a; the reference; certificate 17, of May");
 }
 
+/// A title behind its label, in a cell of its own or in the same one, whatever else stands above.
+#[test]
+fn titles_have_labels() {
+    let table = "Symbol,Estimate,Unit,u\na,1,V,0.1\nResult,1,V,0.1\n";
+    for above in ["Laboratory 7\nTitle:,Gauge G7\n", "Titel,Gauge G7\n\n", "Titre: Gauge G7\n"] {
+        let budget = import(&format!("{above}{table}"), &[]).unwrap();
+        let model: serde_json::Value = serde_json::from_str(&budget.text).unwrap();
+        assert_eq!(model["title"], "Gauge G7", "{above}");
+    }
+}
+
 /// Options that were kept are options again.
 #[test]
 fn options_are_kept_as_json() {
