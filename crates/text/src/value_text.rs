@@ -73,27 +73,35 @@ pub fn with_plus_minus(text: &str) -> String {
 pub fn with_exponents(text: &str) -> String {
     let mut written = String::new();
     let mut rest = text;
-    while let Some(at) = rest.find(['×', '·', '⋅', '*', 'x']) {
+    while let Some(at) = rest.find(TIMES) {
         let (before, behind) = rest.split_at(at);
-        let sign = behind.chars().next().map_or(0, char::len_utf8);
-        let behind = behind.get(sign..).unwrap_or_default();
         written.push_str(before);
         let mantissa = written.trim_end();
         let is_mantissa =
             mantissa.ends_with(|c: char| c.is_ascii_digit() || matches!(c, '.' | ')'));
-        match power_of_ten(behind.trim_start()).filter(|_| is_mantissa) {
+        match times_power_of_ten(behind).filter(|_| is_mantissa) {
             Some((power, after)) => {
                 written.truncate(mantissa.len());
                 written.push_str(&format!("e{power}"));
                 rest = after;
             }
             None => {
-                written.push_str(rest.get(at..at + sign).unwrap_or_default());
-                rest = behind;
+                let sign = behind.chars().next().map_or(0, char::len_utf8);
+                let (sign, after) = behind.split_at(sign);
+                written.push_str(sign);
+                rest = after;
             }
         }
     }
     written + rest
+}
+
+/// Signs of multiplication before a power of ten.
+const TIMES: [char; 5] = ['×', '·', '⋅', '*', 'x'];
+
+/// The power of ten by which a text multiplies the number before it, `×10⁻³`, and what follows.
+pub(crate) fn times_power_of_ten(text: &str) -> Option<(i32, &str)> {
+    power_of_ten(text.trim_start().strip_prefix(TIMES)?.trim_start())
 }
 
 /// Raised digits, by their values.
