@@ -3,86 +3,22 @@
 //! `greater of 0.5 % and 0.02 mm`.
 
 mod combined;
+mod forms;
 mod terms;
 
 use super::DiagnosticKind;
 use super::diagnostic_kind::WITHOUT_UNCERTAINTY;
 use super::diagnostics::Collector;
 use super::json::{Json, Node};
+pub use super::value_text::number;
 use super::value_text::{bare_number, with_plus_minus};
-use gumption_engine::number::elementary;
 use gumption_units::Unit;
 
 pub use combined::is_combined;
-pub use terms::{is_bare_share, number, share, terms};
-
-/// A width that may depend on the estimate: `relative` times its modulus, plus `absolute`.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub struct LinearWidth {
-    /// Fraction of the estimate's modulus.
-    pub relative: f64,
-    /// Constant part, in the input's unit.
-    pub absolute: f64,
-}
-
-impl LinearWidth {
-    /// The width at an estimate, both in the input's unit.
-    pub fn at(self, estimate: f64) -> f64 {
-        self.relative * estimate.abs() + self.absolute
-    }
-}
-
-/// A width as it is specified.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub enum Width {
-    /// Terms that add linearly.
-    Sum(LinearWidth),
-    /// The square root of the sum of two squares, Q\[a; bL\].
-    RootOfSquares([LinearWidth; 2]),
-    /// The greater of two.
-    Greater([LinearWidth; 2]),
-}
-
-/// The instrument that a specification belongs to, by the keys beside it, in the quantity's unit.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub struct Instrument {
-    /// The value of one count of the display.
-    pub resolution: Option<f64>,
-    /// The range of `% of range`.
-    pub range: Option<f64>,
-    /// The full scale of `% FS`.
-    pub full_scale: Option<f64>,
-}
+pub use forms::{Instrument, LinearWidth, Width};
+pub use terms::{is_bare_share, share, terms};
 
 impl Width {
-    /// The width at an estimate, both in the input's unit.
-    pub fn at(self, estimate: f64) -> f64 {
-        match self {
-            Self::Sum(width) => width.at(estimate),
-            Self::RootOfSquares(widths) => {
-                let [first, second] = widths.map(|width| width.at(estimate));
-                elementary::hypot(first, second)
-            }
-            Self::Greater(widths) => {
-                let [first, second] = widths.map(|width| width.at(estimate));
-                first.max(second)
-            }
-        }
-    }
-
-    /// Whether the width has only a relative part, so that it may become 0 with the estimate.
-    pub fn is_relative_only(self) -> bool {
-        self.at(0.0) == 0.0 && self.at(1.0) > 0.0
-    }
-
-    /// The width, if it is a sum.
-    pub fn sum(self) -> Option<LinearWidth> {
-        match self {
-            Self::Sum(width) => Some(width),
-            Self::RootOfSquares(_) | Self::Greater(_) => None,
-        }
-    }
-
     /// Reads the width at `key` of the input `name`, whose unit is `unit`; `instrument` is what the
     /// keys beside it state, `None` where no such keys can stand.
     pub fn read(

@@ -1,8 +1,8 @@
 //! Widths of two parts that do not add: Q\[a; bL\], the greater of two.
 
-use super::terms::{converted, number, ratio, share, sum};
-use super::{Instrument, LinearWidth, Width};
-use crate::value_text::{decimal_comma, is_comma};
+use super::forms::{Instrument, LinearWidth, Width};
+use super::terms::{converted, ratio, share, sum};
+use crate::value_text::{decimal_comma, is_comma, number};
 use gumption_units::Unit;
 
 /// The two parts of a width, as written.

@@ -1,9 +1,9 @@
 //! The terms of a specification: shares of the reading, of a range or of full scale, counts of a
 //! display, and values with a unit.
 
-use super::{Instrument, LinearWidth};
+use super::forms::{Instrument, LinearWidth};
 use crate::share::counts_alike;
-use crate::value_text::{decimal_comma, is_comma, times_power_of_ten, unit_behind_number};
+use crate::value_text::{decimal_comma, is_comma, number, unit_behind_number};
 use gumption_engine::number::Shortest;
 use gumption_units::Unit;
 
@@ -176,37 +176,6 @@ pub fn terms(text: &str) -> Vec<&str> {
     }
     terms.push(text.get(start..).unwrap_or("").trim());
     terms
-}
-
-/// The number at the start of a term, perhaps with a power of ten as it is printed (`5×10⁻⁴`), and the
-/// rest.
-///
-/// # Errors
-/// The term does not begin with a number, as a sentence without a capital.
-pub fn number(term: &str) -> Result<(f64, &str), String> {
-    let longest = term
-        .char_indices()
-        .map(|(at, c)| at + c.len_utf8())
-        .take_while(|&end| end <= 40)
-        .filter_map(|end| {
-            let text = term.get(..end)?;
-            let plain = !text.chars().any(|c| c.is_alphabetic() && !matches!(c, 'e' | 'E'));
-            if plain { Some((text.parse::<f64>().ok()?, end)) } else { None }
-        })
-        .last();
-    let Some((value, end)) = longest else {
-        let shown = if term.is_empty() { "an empty term".to_owned() } else { format!("`{term}`") };
-        return Err(format!("{shown} does not begin with a number"));
-    };
-    let (mantissa, rest) = term.split_at(end);
-    if let Some((power, after)) = times_power_of_ten(rest).filter(|(_, after)| {
-        // `5*10^-4` alone is a product in a formula
-        !rest.trim_start().starts_with('*') || after.trim_start().starts_with(char::is_alphabetic)
-    }) && let Ok(value) = format!("{mantissa}e{power}").parse()
-    {
-        return Ok((value, after.trim()));
-    }
-    Ok((value, rest.trim()))
 }
 
 /// Signs for fractions, and their sizes.
