@@ -173,6 +173,36 @@ fn the_command_line_beats_the_file() {
     assert_eq!(with(&["--digits", "1"])["outputs"]["v"]["validation"]["digits"], 1);
 }
 
+/// Digits on pages move no number of the answer; those of clause 8 stay.
+#[test]
+fn shown_digits_are_apart_from_those_of_clause_8() {
+    let model = r#"{"inputs": {"x": {"distribution": "normal", "mean": 1.234567, "std": 0.123456}},
+        "equations": {"y": "x"}, "outputs": {"y": {}}, "monte_carlo": {"trials": 20000}}"#;
+    let with = |arguments: &[&str], model: &str| {
+        let (code, answer, message) = ended(&[&["run", "-"], arguments].concat(), model);
+        assert_eq!(code, 0, "{message}");
+        answer
+    };
+    let machine = ["--format", "json", "--quiet"];
+    let shown = with(&[&machine[..], &["--shown-digits", "5"]].concat(), model);
+    assert_eq!(shown, with(&machine, model));
+    let validation =
+        &serde_json::from_str::<Value>(&shown).expect("JSON")["outputs"]["y"]["validation"];
+    assert_eq!(validation["digits"], 2);
+    // k = 2: U is 0.246912
+    assert!(with(&[], model).contains("y = 1.23 ± 0.25;"));
+    let page = with(&["--shown-digits", "5"], model);
+    assert!(page.contains("y = 1.23457 ± 0.24691;"), "{page}");
+    let file = model.replacen('{', r#"{"shown_digits": 3, "#, 1);
+    assert!(with(&[], &file).contains("y = 1.235 ± 0.247;"));
+    assert!(with(&["--shown-digits", "5"], &file).contains("y = 1.23457 ± 0.24691;"));
+    // as many as of clause 8, unless given
+    assert!(with(&["--digits", "3"], model).contains("y = 1.235 ± 0.247;"));
+    let (code, _, message) = ended(&["run", "-", "--shown-digits", "0"], model);
+    assert_eq!(code, 2);
+    assert!(message.contains("a whole number from 1 to 15 is needed"), "{message}");
+}
+
 #[test]
 fn no_trials_leave_the_law_of_propagation() {
     let answer = json(&["run", "-", "--format", "json", "--trials", "0"], SMALL);

@@ -288,6 +288,26 @@ fn the_drift_of_the_manual_is_extrapolated() {
     assert!((found("dof") / dof - 1.0).abs() < 1e-9);
 }
 
+/// The curve and a further reading on it, as the manual has them: the line through the four points by the
+/// sums of squares, s sqrt(1/n + (x - mean)^2/Sxx) of the line and s sqrt(1 + 1/n + ...) of a reading.
+#[test]
+fn a_further_reading_of_the_manual() {
+    let page = page("calibration-functions.md");
+    let section = page.split("## A further reading on the line").nth(1).expect("the section");
+    let (_, code) = blocks(section).into_iter().find(|(fence, _)| *fence == "json").expect("JSON");
+    let folder = tempfile::tempdir().expect("a folder");
+    fs::write(folder.path().join("line.json"), code).expect("written");
+    let said = shell(folder.path(), "gumption run line.json --format json --trials 0 --quiet");
+    let answer: serde_json::Value = serde_json::from_slice(&said.stdout).expect("an answer");
+    for (output, u) in [("curve", 0.101_242_283_656_582_9), ("reading", 0.226_384_628_453_435_35)] {
+        let gum = &answer["outputs"][output]["gum"];
+        let found = |key: &str| gum[key].as_f64().expect("a number");
+        assert!((found("estimate") - 5.0).abs() < 1e-12, "{output}");
+        assert!((found("standard_uncertainty") / u - 1.0).abs() < 1e-9, "{output}: {gum}");
+        assert!((found("dof") - 2.0).abs() < 1e-9, "{output}");
+    }
+}
+
 /// The sources of all crates, without their tests.
 pub(crate) fn sources_of_crates() -> Vec<String> {
     let mut texts = Vec::new();

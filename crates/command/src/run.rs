@@ -67,6 +67,13 @@ pub(super) struct Run {
         allow_negative_numbers = true
     )]
     digits: Option<u32>,
+    /// Number of significant digits of uncertainties on pages, which decide nothing; those of
+    /// --digits unless given
+    #[arg(
+        long, value_name = "N", value_parser = options::digits,
+        allow_negative_numbers = true
+    )]
+    shown_digits: Option<u32>,
     /// Take the coverage factor at the real number of effective degrees of freedom
     #[arg(long, value_name = "real")]
     dof: Option<DofRule>,
@@ -147,6 +154,7 @@ impl Run {
             max_trials: self.max_trials,
             seed: Some(self.seed.or(settings.seed)),
             digits: self.digits,
+            shown_digits: self.shown_digits,
             real_dof: self.dof.is_some(),
             statement: self.statement.requested(),
         };

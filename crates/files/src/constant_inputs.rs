@@ -98,7 +98,7 @@ fn constant(log: &Collector, member: &Member, overrides: &[Override]) -> Option<
     let unit = unit(&object, "unit")?;
     let moved = overrides.iter().rev().find(|o| o.input == member.key && o.field.is_none());
     if let Some(moved) = moved {
-        let value = moved.value_in(&unit, &log.own_units()).ok()?;
+        let value = moved.value_of_file(&unit, log).ok()?;
         return Some(ConstantText::Value(unit, value));
     }
     match &object.get("value")?.value.value {

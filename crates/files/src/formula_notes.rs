@@ -8,8 +8,8 @@ use super::model_reader::Equation;
 use super::scopes::report_formula;
 use gumption_engine::fact;
 use gumption_engine::model::formula::{
-    Factors, Formula, KelvinKind, LevelReference, Numbers, Scope, TableCall, TableData, Typing,
-    Use, ValueSource,
+    Factors, Formula, FormulaError, FormulaNote, KelvinKind, LevelReference, Numbers, Scope,
+    TableCall, TableData, Typing, Use, ValueSource,
 };
 use gumption_engine::model::{Output, Quantity};
 use gumption_engine::task::Warning;
@@ -46,7 +46,12 @@ pub(super) fn of_formulas(
             scope.get(name).is_some_and(|typing| typing.dimension == Some(Dimension::LENGTH));
         let computed = formula.numbers(known).or(is_length.then_some(Numbers::Length));
         let computed = computed.filter(|_| of.check_units);
-        found.extend(notes.into_iter().map(|note| Warning::new(name, note.fact)));
+        for note in notes {
+            match (member, result.filter(|_| note.is_error)) {
+                (Some(member), Some(unit)) => refuse(log, member, formula, note, (name, unit)),
+                _ => found.push(Warning::new(name, note.fact)),
+            }
+        }
         if let Some(computed) = computed {
             numbers.names.insert(name, computed);
         }
@@ -82,7 +87,16 @@ pub(super) fn of_formulas(
         let counts_turns = given.values().any(|unit| unit.counts_revolutions());
         for output in &of.outputs.outputs {
             let terms = terms(&by_name, &output.quantity.name);
-            found.extend(converted_terms(&terms, &numbers, &output.quantity));
+            for (name, formula, note) in converted_terms(&terms, &numbers, &output.quantity) {
+                let member = equations.iter().find(|(of, ..)| of == name);
+                match member.and_then(|(_, member, _)| *member).filter(|_| note.is_error) {
+                    Some(member) => {
+                        let Quantity { name, unit, .. } = &output.quantity;
+                        refuse(log, member, formula, note, (name, unit));
+                    }
+                    None => found.push(Warning::new(name, note.fact)),
+                }
+            }
             found.extend(angular_frequency(scope, &terms, &output.quantity.unit));
             if counts_turns {
                 let radians = radians_of_turns(scope, output);
@@ -164,20 +178,34 @@ fn terms<'e>(by_name: &ByName<'e>, of: &'e str) -> Vec<(&'e str, &'e Formula)> {
 }
 
 /// Equations that convert to the unit of an output which they are terms of.
-fn converted_terms(
-    terms: &[(&str, &Formula)],
+fn converted_terms<'e>(
+    terms: &[(&'e str, &'e Formula)],
     numbers: &KnownNumbers<'_>,
     output: &Quantity,
-) -> Vec<Warning> {
+) -> Vec<(&'e str, &'e Formula, FormulaNote)> {
     let what = fact!("result.named-output", name = &output.name);
     let known = |source: ValueSource<'_>| numbers.of(source);
     let intermediate = terms.iter().filter(|(name, _)| *name != output.name);
     let notes = intermediate.filter_map(|(name, formula)| {
         let factors_of = |name: &str| numbers.factors.get(name).copied();
         let note = formula.converted_to(known, factors_of, &output.unit, &what)?;
-        Some(Warning::new(*name, note.fact))
+        Some((*name, *formula, note))
     });
     notes.collect()
+}
+
+/// Reports a share that is converted to the unit of an output twice.
+fn refuse(
+    log: &Collector,
+    member: &Member,
+    formula: &Formula,
+    note: FormulaNote,
+    (output, unit): (&str, &Unit),
+) {
+    let span = note.span;
+    let formula = formula.text().get(span.clone()).unwrap_or_default().to_owned();
+    let (output, unit) = (output.to_owned(), unit.to_string());
+    report_formula(log, member, FormulaError::ConvertedTwice { formula, output, unit, span });
 }
 
 /// A term of an output in Hz that is an angular frequency.

@@ -6,6 +6,7 @@ use super::condition_values::ConditionValues;
 use super::conditions::unit;
 use super::dcc::FromCertificate;
 use super::input_set::InputSet;
+use super::instrument;
 use super::keys::{self, FileShape};
 use super::overrides::Override;
 use super::paired;
@@ -269,7 +270,7 @@ impl<'a> InputReader<'a, '_> {
     /// The estimate's source: the command line, a formula of the conditions, or the own fields.
     fn source(&self, key: &str, unit: &Unit) -> Option<EstimateSource> {
         if let Some(moved) = self.moved {
-            let value = moved.value_in(unit, &self.object.log.own_units());
+            let value = moved.value_of_file(unit, self.object.log);
             return self.object.log.value(self.object.place(), value).map(EstimateSource::Fixed);
         }
         let Some(member) = self.object.get(key) else {
@@ -334,6 +335,7 @@ impl<'a> InputReader<'a, '_> {
         };
         let known: Vec<&str> = keys::INPUT.into_iter().chain(kind.fields.iter().copied()).collect();
         keys::check_names(&object, &known);
+        instrument::check(&object, kind, unit);
         self.evidence(unit);
         let variable = self.inputs.variables.len();
         self.variable(self.name.to_owned(), &object, Some(kind), unit);
@@ -634,7 +636,7 @@ impl<'a> InputReader<'a, '_> {
                 Some(mean) => Some(mean),
                 None => return,
             },
-            (EstimateSource::Own, None) if of_type_a.is_empty() => {
+            (EstimateSource::Own, None) if !of_type_a.iter().any(|part| part.has_estimate()) => {
                 object.report(DiagnosticKind::MissingKey {
                     key: "mean",
                     what: "an input with components",
@@ -802,6 +804,7 @@ impl<'a> InputReader<'a, '_> {
                 let known: Vec<&str> =
                     keys::COMPONENT.into_iter().chain(kind.fields.iter().copied()).collect();
                 keys::check_names(&component, &known);
+                instrument::check(&component, kind, unit);
                 let samples = self.samples(&component, &full, (unit, ValueOf::Difference), kind);
                 let Some(read) = self.readings_of_file(&component, &full, unit, kind) else {
                     continue;
@@ -862,6 +865,12 @@ impl WrittenComponent<'_> {
             ..Fields::new(self.object, &self.full, unit, estimate, results)
         }
         .distribution(self.kind)
+    }
+
+    /// Whether the component has an estimate of its own: readings that are only summarized may have
+    /// none.
+    fn has_estimate(&self) -> bool {
+        self.object.get("n").is_none() || self.object.get("mean").is_some()
     }
 
     /// The estimate of the saved result that it is.

@@ -27,6 +27,7 @@ use super::conditions::{self, Conditions};
 use super::constant_inputs::ConstantInputs;
 use super::context::Context;
 use super::counted_twice;
+use super::dates;
 use super::fits::{self, FitSet};
 use super::formula_notes;
 use super::input_set::InputSet;
@@ -161,6 +162,7 @@ pub(super) fn read_with<T>(
         {
             own_units(&root);
         }
+        dates::apply(log, root);
         notation::apply(log, root);
         overrides::apply(log, root, options.overrides);
     };
@@ -222,7 +224,8 @@ impl<'a> ModelReader<'a> {
         files.extend(fits.files);
         let joint = Fits::default();
         let (correlations, notes) = self.correlations(&quantities, &mut files, &joint, trials);
-        let mut warnings = quantities.inputs.warnings.clone();
+        let mut warnings = dates::notes(root);
+        warnings.extend(quantities.inputs.warnings.iter().cloned());
         warnings.extend(fits.warnings);
         warnings.extend(notes);
         warnings.extend(results.warnings.take());

@@ -63,7 +63,7 @@ impl ObservedColumn {
     pub(super) fn in_unit(&self, log: &Collector, unit: &Unit) -> Option<ObservedOutput> {
         let mut observed = self.observed.clone();
         for StatedUncertainty { key, value, of } in &self.stated {
-            let width = Width::read(log, value, &self.output, key, unit)
+            let width = Width::read(log, value, &self.output, key, unit, None)
                 .map_err(|mistake| log.report(&value.span, mistake))
                 .ok()?;
             let uncertainties: Vec<f64> = of.iter().map(|value| width.at(*value)).collect();

@@ -15,7 +15,7 @@ use gumption_engine::number::Shortest;
 use gumption_text::json::{Json, Member};
 use gumption_text::object::Object;
 use gumption_text::value_text::ValueOf;
-use gumption_text::width::{self, Width};
+use gumption_text::width::{self, LinearWidth, NOT_A_SUM, Width};
 use gumption_text::{Collector, DiagnosticKind};
 use gumption_units::Unit;
 
@@ -200,9 +200,10 @@ fn parts(
     if let Json::Text(text) = &member.value.value
         && let Some((shares, others)) = shares_of_conditions(text, set)
     {
-        let mut width = Width { relative: 0.0, absolute: 0.0 };
+        let mut width = LinearWidth::default();
         if !others.is_empty() {
-            let read = Width::specification(&others.join(" + "), unit, &log.own_units());
+            let read = Width::specification(&others.join(" + "), unit, &log.own_units(), None);
+            let read = read.and_then(|width| width.sum().ok_or_else(|| NOT_A_SUM.to_owned()));
             let read = read.map_err(|reason| wrong(name, member, reason));
             width = log.value(&member.value.span, read)?;
             refuse_bare_share(output, name, member, &others, unit, width, set)?;
@@ -221,13 +222,14 @@ fn parts(
         return Some((width.relative, absolute, Some(OfConditions::new(sum))));
     }
     let formula = formula(output, member)
-        .filter(|_| Width::read(log, &member.value, name, "cmc", unit).is_err());
+        .filter(|_| Width::read(log, &member.value, name, "cmc", unit, None).is_err());
     if let Some(formula) = formula {
         let of = ValueOf::Difference;
         let following = following(output, "cmc", member, formula, of, unit, set)?;
         return Some((0.0, 0.0, Some(following)));
     }
-    let width = Width::read(log, &member.value, name, "cmc", unit);
+    let width = Width::read(log, &member.value, name, "cmc", unit, None)
+        .and_then(|width| width.sum().ok_or_else(|| wrong(name, member, NOT_A_SUM.to_owned())));
     let width = log.value(&member.value.span, width)?;
     if let Json::Text(text) = &member.value.value {
         refuse_bare_share(output, name, member, &width::terms(text), unit, width, set)?;
@@ -268,7 +270,7 @@ fn refuse_bare_share(
     member: &Member,
     terms: &[&str],
     unit: &Unit,
-    width: Width,
+    width: LinearWidth,
     set: &ConditionSet<'_>,
 ) -> Option<()> {
     let is_bare = |term: &&&str| width::is_bare_share(term);

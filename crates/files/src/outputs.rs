@@ -4,6 +4,7 @@ use std::ops::Range;
 use std::sync::Arc;
 
 use super::conditions::unit;
+use super::instrument;
 use super::keys;
 use super::output_limits::{self, LimitFormula};
 use super::results::ResultFiles;
@@ -276,6 +277,7 @@ fn prior(tolerance: &Object<'_>, unit: &Unit, results: &ResultFiles<'_>) -> Opti
     let mut known = vec!["distribution", "about"];
     known.extend(kind.fields);
     keys::check_names(&object, &known);
+    instrument::check(&object, kind, unit);
     Fields::new(object, "prior", unit, Estimate::Own, results).distribution(kind)
 }
 

@@ -2,6 +2,7 @@
 
 use std::ops::Range;
 
+use super::dates;
 use gumption_text::json::{Json, Member, Node};
 use gumption_text::value_text::{ValueOf, converted, with_unit};
 use gumption_text::{Collector, DiagnosticKind};
@@ -58,6 +59,19 @@ impl Override {
         };
         let (a, b) = (&self.field, &other.field);
         self.input == other.input && (a == b || same(a, b) || same(b, a))
+    }
+
+    /// The value in `unit` as [`value_in`](Self::value_in) gives it, which may be a date of the file.
+    pub(super) fn value_of_file(
+        &self,
+        unit: &Unit,
+        log: &Collector,
+    ) -> Result<f64, DiagnosticKind> {
+        let value = dates::in_days(log, &self.value).map_err(|reason| {
+            let text = self.text.clone();
+            DiagnosticKind::Override { text, reason }
+        })?;
+        Self { value: value.into_owned(), ..self.clone() }.value_in(unit, &log.own_units())
     }
 
     /// The value in `unit`: a number in it, or a number with another unit, also one that the file
@@ -195,7 +209,7 @@ fn override_condition(log: &Collector, root: &mut Node, replaced: &Override) -> 
     if replaced.field.is_some() {
         return false;
     }
-    match replaced.value_in(&unit, &log.own_units()) {
+    match replaced.value_of_file(&unit, log) {
         Ok(value) => {
             let span = values.span.clone();
             values.value = Json::List(vec![Node { span, value: Json::Number(value.to_string()) }]);

@@ -394,6 +394,51 @@ mod tests {
         assert!(model(alone, "", &[]).unwrap_err().to_string().contains("no scatter"));
     }
 
+    /// Mean, standard deviation of one reading and their number: JCGM 100, 4.4.3 prints 1.489 degC of
+    /// twenty readings, u = 0.333 degC.
+    #[test]
+    fn readings_by_their_mean_scatter_and_number() {
+        let of = |fields: &str| {
+            let input = format!(r#"{{"unit": "V", "distribution": "readings", {fields}}}"#);
+            model(&input, "", &[])
+        };
+        let stated = |fields: &str| known(&of(fields).unwrap(), 0);
+        let u = 1.489 / 20_f64.sqrt();
+        let guide = stated(r#""mean": 100.145, "s": 1.489, "n": 20"#);
+        assert!(guide[0] == 100.145 && (guide[1] - u).abs() < 1e-15 && guide[2] == 19.0);
+        assert_eq!(stated(r#""mean": "100.145 V", "s": "1489 mV", "n": 20"#)[2], 19.0);
+        let pooled = stated(r#""mean": 2, "n": 3, "pooled": {"std": 0.025, "dof": 30}"#);
+        assert!((pooled[1] - 0.025 / 3_f64.sqrt()).abs() < 1e-16 && pooled[2] == 30.0);
+        let equal = stated(r#""mean": 2, "s": 0, "n": 3, "resolution": 0.1"#);
+        assert!((equal[1] - 0.05 / 3_f64.sqrt()).abs() < 1e-16 && equal[2].is_infinite());
+        for (fields, said) in [
+            (r#""mean": 2, "s": 0.1"#, "`n`"),
+            (r#""s": 0.1, "n": 3"#, "`mean`"),
+            (r#""mean": 2, "n": 3"#, "`s`"),
+            (r#""mean": 2, "s": 0.1, "n": 1"#, "readings"),
+            (r#""mean": 2, "s": 0, "n": 3"#, "scatter"),
+            (r#""values": [1, 2], "s": 0.1, "n": 3"#, "exclude"),
+            (r#""mean": 2, "s": 0.1, "n": 3, "paired": true"#, "exclude"),
+            (r#""mean": 2, "s": 0.1, "n": 3, "pooled": {"std": 1, "dof": 3}"#, "exclude"),
+        ] {
+            let error = of(fields).unwrap_err().to_string();
+            assert!(error.contains(said), "{fields}: {error}");
+        }
+        let components = |more: &str| {
+            let input = format!(
+                r#"{{"unit": "V", {more} "components": [
+                    {{"name": "rep", "distribution": "readings", "s": 0.3, "n": 9}},
+                    {{"name": "res", "distribution": "rectangular", "half_width": 0.05}}]}}"#
+            );
+            model(&input, "", &[])
+        };
+        let file = components(r#""mean": 5,"#).unwrap();
+        let of = &file.task.rows[0].distributions;
+        assert_eq!([of[0].mean(), of[1].mean()], [5.0, 0.0]);
+        assert!((of[1].standard_uncertainty() - 0.1).abs() < 1e-16 && of[1].dof() == 8.0);
+        assert!(components("").unwrap_err().to_string().contains("`mean`"));
+    }
+
     /// Inputs in one text, asymmetric ones, and limits.
     #[test]
     fn values_as_people_write_them() {

@@ -37,6 +37,9 @@ pub(super) fn read(root: &Object<'_>) -> Settings {
             root.log.report(&member.value.span, diagnostic);
         }
     }
+    if let Some(digits) = root.whole("shown_digits", 1, 15) {
+        settings.shown_digits = u32::try_from(digits).ok();
+    }
     let Some(member) = root.get("monte_carlo") else {
         return settings;
     };

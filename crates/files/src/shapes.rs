@@ -5,6 +5,7 @@ use std::ops::Range;
 use super::condition_values::ConditionValues;
 use super::coverage_slips;
 use super::dcc::FromCertificate;
+use super::instrument;
 use super::keys::{self, FileShape, SHAPES};
 use super::readings::{self, FileReadings, Pooled};
 use super::results::ResultFiles;
@@ -18,7 +19,7 @@ use gumption_engine::special;
 use gumption_text::json::{Json, Node};
 use gumption_text::object::Object;
 use gumption_text::value_text::ValueOf;
-use gumption_text::width::{Width, is_bare_share, terms, without_plus_minus};
+use gumption_text::width::{Width, is_bare_share, is_combined, terms, without_plus_minus};
 use gumption_text::{DiagnosticKind, WIDTHS};
 use gumption_units::Unit;
 use gumption_units::nearest;
@@ -44,7 +45,8 @@ impl FileShape {
     /// quantities and those without a field for their estimate are where their fields put them.
     pub(super) fn is_about_zero(&self) -> bool {
         let located = ["mean", "value"].iter().any(|key| self.fields.contains(key));
-        self.name == "result" || (located && !matches!(self.name, "exponential" | "lognormal"))
+        let has_own = matches!(self.name, "exponential" | "lognormal" | "readings");
+        self.name == "result" || (located && !has_own)
     }
 }
 
@@ -136,12 +138,15 @@ pub(super) struct Fields<'a> {
 fn formula_of_width(object: &Object<'_>, key: &str, unit: &Unit) -> Option<String> {
     let member = object.get(key)?;
     let Json::Text(text) = &member.value.value else { return None };
+    if is_combined(text) {
+        return None;
+    }
     let begins_with_name = text.trim_start().starts_with(|c: char| c.is_alphabetic() || c == '_');
     let is_formula = || {
         let computes =
             |formula: &Formula| formula.names().next().is_some() || text.contains(['*', '/', '(']);
         object.log.formula(text).is_ok_and(|formula| computes(&formula))
-            && Width::read(object.log, &member.value, "", key, unit).is_err()
+            && Width::read(object.log, &member.value, "", key, unit, None).is_err()
     };
     (begins_with_name || is_formula()).then(|| text.clone())
 }
@@ -165,16 +170,31 @@ pub(super) fn has_width_of_row(object: &Object<'_>, kind: &FileShape, unit: &Uni
 /// Whether a width of the quantity has a share of its estimate and something beside it, so that of an
 /// estimate of 0 the share is lost without a trace.
 pub(super) fn has_share_beside_value(object: &Object<'_>, kind: &FileShape, unit: &Unit) -> bool {
+    if kind.name == "readings" {
+        return false;
+    }
     let own = object.log.own_units();
+    let Some(instrument) = instrument::stated(object, unit) else { return false };
     let mut widths = WIDTHS.iter().filter(|key| kind.fields.contains(key));
     widths.any(|key| {
         let Some(Json::Text(text)) = object.get(key).map(|member| &member.value.value) else {
             return false;
         };
         without_plus_minus(text, key)
-            .and_then(|text| Width::specification(&text, unit, &own))
+            .and_then(|text| Width::specification(&text, unit, &own, Some(&instrument)))
             .is_ok_and(|width| width.at(1.0) > width.at(0.0) && width.at(0.0) > 0.0)
     })
+}
+
+/// Keys of readings that are stated by a summary.
+const SUMMARY: [&str; 3] = ["n", "s", "mean"];
+
+/// A Type A evaluation, which may lack what a distribution needs.
+struct TypeA {
+    mean: f64,
+    /// Number of readings.
+    count: usize,
+    readings: Result<Readings, Invalid>,
 }
 
 impl<'a> Fields<'a> {
@@ -370,11 +390,8 @@ impl<'a> Fields<'a> {
     /// Readings, or what stands in place of their scatter.
     fn readings(&self) -> Option<Distribution> {
         let object = &self.object;
-        let values = match self.read {
-            Some(read) => read.values.clone(),
-            None => self.listed_readings()?,
-        };
-        for key in ["pooled", "resolution", "evaluation", "groups"] {
+        let TypeA { mean, count, readings } = self.type_a()?;
+        for key in ["pooled", "resolution", "evaluation", "groups", "n"] {
             if let (Some(paired), Some(_)) = (object.get("paired"), object.get(key)) {
                 let diagnostic = DiagnosticKind::Exclusive { first: key, second: "paired" };
                 object.log.report(&paired.key_span, diagnostic);
@@ -395,19 +412,17 @@ impl<'a> Fields<'a> {
             }
         };
         let pooled = readings::pooled(object, self.unit, &self.results.curves)?;
-        let count = values.len() as f64;
-        let origin = values.first().copied().unwrap_or(f64::NAN);
-        let mean = origin + values.iter().map(|value| value - origin).sum::<f64>() / count;
+        let root = (count as f64).sqrt();
         let resolution = match object.get("resolution") {
             Some(_) => self.width("resolution", mean)?,
             None => None,
         };
         let half = resolution.map(|step| 0.5 * step);
         let of_scatter: Result<Distribution, Invalid> = match pooled {
-            Some(Pooled::Stated(std, dof)) if !values.is_empty() => {
-                Normal::with_dof(mean, std / count.sqrt(), dof).map(Into::into)
+            Some(Pooled::Stated(std, dof)) if count > 0 => {
+                Normal::with_dof(mean, std / root, dof).map(Into::into)
             }
-            Some(Pooled::Residuals(curve)) if !values.is_empty() => {
+            Some(Pooled::Residuals(curve)) if count > 0 => {
                 let factor = match Unit::conversion_factor(&curve.y, self.unit) {
                     Ok(factor) => factor,
                     Err(_) => {
@@ -422,10 +437,10 @@ impl<'a> Fields<'a> {
                     }
                 };
                 let std = factor * curve.fit.factor.unwrap_or(f64::NAN);
-                Fitted::reading(&curve.fit, mean, std / count.sqrt()).map(Into::into)
+                Fitted::reading(&curve.fit, mean, std / root).map(Into::into)
             }
-            _ if bayesian => Readings::new(values).and_then(Readings::bayesian).map(Into::into),
-            _ => Readings::new(values).map(Into::into),
+            _ if bayesian => readings.and_then(Readings::bayesian).map(Into::into),
+            _ => readings.map(Into::into),
         };
         match (of_scatter, half) {
             (Ok(scatter), Some(half))
@@ -444,6 +459,54 @@ impl<'a> Fields<'a> {
             }
             (scatter, _) => self.moved(scatter),
         }
+    }
+
+    /// The Type A evaluation of `values` or of a file, or of the summary `mean`, `s` and `n`.
+    fn type_a(&self) -> Option<TypeA> {
+        let object = &self.object;
+        let summary = SUMMARY.into_iter().find_map(|key| Some((key, object.get(key)?)));
+        if let Some((second, member)) = summary {
+            let first = ["values", "file"].into_iter().find(|key| object.get(key).is_some());
+            if let Some(first) = first {
+                let diagnostic = DiagnosticKind::Exclusive { first, second };
+                object.log.report(&member.key_span, diagnostic);
+                return None;
+            }
+            return self.summary();
+        }
+        let values = match self.read {
+            Some(read) => read.values.clone(),
+            None => self.listed_readings()?,
+        };
+        let count = values.len();
+        let origin = values.first().copied().unwrap_or(f64::NAN);
+        let mean = origin + values.iter().map(|value| value - origin).sum::<f64>() / count as f64;
+        Some(TypeA { mean, count, readings: Readings::new(values) })
+    }
+
+    /// The readings of which only mean, standard deviation and number are stated.
+    fn summary(&self) -> Option<TypeA> {
+        let object = &self.object;
+        let count = self.counted("n", 1);
+        let is_component = self.share_of.is_some();
+        let mean = match object.get("mean") {
+            // of a component only the scatter
+            None if is_component => 0.0,
+            _ => self.estimate("mean")?,
+        };
+        let std = match (object.get("s"), object.get("pooled")) {
+            (Some(member), Some(_)) => {
+                let diagnostic = DiagnosticKind::Exclusive { first: "pooled", second: "s" };
+                object.log.report(&member.key_span, diagnostic);
+                return None;
+            }
+            (None, Some(_)) => 0.0,
+            // equal readings have no scatter
+            (Some(member), None) if member.value.number() == Some(0.0) => 0.0,
+            _ => self.width("s", mean)?.unwrap_or(0.0),
+        };
+        let count = usize::try_from(count?).unwrap_or(usize::MAX);
+        Some(TypeA { mean, count, readings: Readings::of_summary(mean, std, count) })
     }
 
     /// The readings of `values`: numbers, or formulas of the conditions in this row.
@@ -716,7 +779,12 @@ impl<'a> Fields<'a> {
             }
         }
         let log = self.object.log;
-        let read = Width::read(log, &member.value, self.name, key, self.unit)
+        // the resolution of readings is a width itself
+        let instrument = match key {
+            "resolution" | "s" => None,
+            _ => Some(instrument::stated(&self.object, self.unit)?),
+        };
+        let read = Width::read(log, &member.value, self.name, key, self.unit, instrument.as_ref())
             .and_then(|width| self.share_beside_share(key).map_or(Ok(width), Err));
         let width = log.value(&member.value.span, read)?;
         let value = width.at(self.share_of.unwrap_or(estimate));

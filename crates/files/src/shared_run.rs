@@ -256,6 +256,7 @@ impl SharedRun {
                 "seed": settings.seed,
                 "digits": settings.digits,
                 "own_digits": settings.own_digits,
+                "shown_digits": settings.shown_digits,
                 "real_dof": settings.real_dof,
                 "statement": settings.statement.name(),
                 "statement_tolerance": settings.statement_tolerance,
@@ -321,8 +322,13 @@ fn settings(found: &Map<String, Value>) -> Option<Settings> {
     settings.max_trials = number("max_trials").filter(|n| *n <= super::settings::MOST_TRIALS)?;
     settings.for_validation = flag("for_validation")?;
     settings.seed = number("seed")?;
-    settings.digits = u32::try_from(number("digits")?).ok().filter(|n| (1..=15).contains(n))?;
+    let digits = |key: &str| u32::try_from(number(key)?).ok().filter(|n| (1..=15).contains(n));
+    settings.digits = digits("digits")?;
     settings.own_digits = flag("own_digits")?;
+    settings.shown_digits = match found.get("shown_digits") {
+        None | Some(Value::Null) => None,
+        Some(_) => Some(digits("shown_digits")?),
+    };
     settings.real_dof = flag("real_dof")?;
     settings.statement = StatementMethod::named(found.get("statement")?.as_str()?)?;
     settings.statement_tolerance =
@@ -506,6 +512,7 @@ mod tests {
         assert!(differs(&|run| run.text.push(' ')).unwrap().contains("another model"));
         assert!(differs(&|run| run.settings.trials = Trials::Fixed(5)).unwrap().contains("of 5"));
         assert!(differs(&|run| run.settings.digits = 1).unwrap().contains("digits"));
+        assert!(differs(&|run| run.settings.shown_digits = Some(1)).unwrap().contains("digits"));
         assert!(differs(&|run| run.memory = 1).unwrap().contains("--memory"));
         assert!(differs(&|run| run.set.push("x=2".into())).unwrap().contains("x=2"));
     }

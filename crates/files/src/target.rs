@@ -6,7 +6,7 @@ use gumption_engine::task::Task;
 use gumption_text::value_text::{
     ValueOf, bare_number, converted, decimal_comma, grouped_digits, is_comma, with_unit,
 };
-use gumption_text::width::{Width, number, share};
+use gumption_text::width::{LinearWidth, NOT_A_SUM, Width, number, share};
 use gumption_units::nearest;
 
 /// The form of a target, for messages.
@@ -86,8 +86,10 @@ pub fn read_target(text: &str, task: &Task) -> Result<PlanTarget, String> {
         }
         return Ok(PlanTarget { most, ..target });
     }
-    let width = Width::specification(right, unit, &[]);
-    let Width { relative, absolute } = width.map_err(|reason| wrong(format!(": {reason}")))?;
+    let width = Width::specification(right, unit, &[], None);
+    let width = width.map_err(|reason| wrong(format!(": {reason}")))?;
+    let LinearWidth { relative, absolute } =
+        width.sum().ok_or_else(|| wrong(format!(": {NOT_A_SUM}")))?;
     Ok(PlanTarget { share: relative, most: absolute, ..target })
 }
 

@@ -51,7 +51,7 @@ export default {
     scale: "Skala", values: "Werte", about: "Quelle oder Bemerkung", inexactness: "Ungenauigkeit", shape: "Form", rate: "Rate",
     alpha: "Alpha", std_low: "u unten", std_high: "u oben", probabilities: "Wahrscheinlichkeiten", file: "Datei",
     column: "Spalte", output: "Ergebnis", id: "id", type: "Typ", group: "Gruppe", unit: "Einheit",
-    resolution: "Auflösung", tolerance: "Toleranz", cmc: "CMC", at: "bei", guard_band: "Schutzabstand",
+    resolution: "Auflösung", range: "Messbereich", full_scale: "Bereichsendwert", s: "Standardabweichung s", n: "Anzahl n", tolerance: "Toleranz", cmc: "CMC", at: "bei", guard_band: "Schutzabstand",
     coverage_probability: "Überdeckungswahrscheinlichkeit", coverage_factor: "Erweiterungsfaktor k", trials: "Versuche",
     seed: "Startwert", digits: "Stellen", name: "Name",
   },

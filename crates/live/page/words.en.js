@@ -51,7 +51,7 @@ export default {
     scale: "scale", values: "values", about: "source or note", inexactness: "inexactness", shape: "shape", rate: "rate",
     alpha: "alpha", std_low: "u below", std_high: "u above", probabilities: "probabilities", file: "file",
     column: "column", output: "output", id: "id", type: "type", group: "group", unit: "unit",
-    resolution: "resolution", tolerance: "tolerance", cmc: "CMC", at: "at", guard_band: "guard band",
+    resolution: "resolution", range: "range", full_scale: "full scale", s: "standard deviation s", n: "number n", tolerance: "tolerance", cmc: "CMC", at: "at", guard_band: "guard band",
     coverage_probability: "coverage probability", coverage_factor: "coverage factor k", trials: "trials",
     seed: "seed", digits: "digits", name: "name",
   },

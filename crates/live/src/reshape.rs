@@ -151,10 +151,11 @@ pub(crate) fn reshaped(files: FileReader<'_>, asked: &ReshapeRequest) -> Result<
         let value = role.value(centre, width);
         edits.push(Edit::set(step(key), value));
     }
-    // keys that only the old distribution has are removed
+    // keys that only the old distribution has are removed; those of readings mean something else there
     let old = value("distribution").and_then(|name| known(&name));
+    let is_alike = old.is_some_and(|old| (old.name == "readings") == (shape.name == "readings"));
     for key in old.map_or(&[][..], |old| old.keys) {
-        let stays = shape.keys.contains(key) || taken.iter().any(|of| of == key);
+        let stays = is_alike && shape.keys.contains(key) || taken.iter().any(|of| of == key);
         if has(key) && !stays {
             edits.push(Edit::remove(step(key)));
         }

@@ -293,6 +293,13 @@ fn a_shape_keeps_the_numbers_that_were_typed() {
         reshaped(normal, "readings"),
         "{\"unit\": \"m\", \"distribution\": \"readings\", \"values\": []}"
     );
+    // the resolution of readings is a width, and that of others the value of a count
+    let summary =
+        "{\"distribution\": \"readings\", \"mean\": 5, \"s\": 0.1, \"n\": 9, \"resolution\": 0.1}";
+    assert_eq!(
+        reshaped(summary, "normal"),
+        "{\"distribution\": \"normal\", \"mean\": 5, \"std\": null}"
+    );
 }
 
 /// Every distribution that files may name has keys to begin with, and a new input of it, filled in,

@@ -13,7 +13,7 @@ use gumption_units::UnitError;
 use gumption_units::nearest;
 
 /// The keys of an input that are widths; a width is never 0.
-pub const WIDTHS: [&str; 5] = ["std", "expanded", "scale", "half_width", "semi_range"];
+pub const WIDTHS: [&str; 6] = ["std", "expanded", "scale", "half_width", "semi_range", "s"];
 
 /// An error, without its place.
 #[derive(Clone, Debug, PartialEq)]

@@ -8,6 +8,7 @@ use std::ops::Range;
 use std::sync::Arc;
 
 use super::DiagnosticKind;
+use super::date::Day;
 use super::source::{Place, SourceText};
 use gumption_engine::model::formula::{Formula, FormulaError};
 use gumption_engine::regression::CurveFunction;
@@ -117,13 +118,16 @@ pub struct Collector {
     by_start: RefCell<HashMap<usize, Vec<usize>>>,
     /// Units that the file defines.
     units: RefCell<Vec<Unit>>,
+    /// The day from which the dates of the file count.
+    date_origin: Cell<Option<Day>>,
 }
 
 impl Collector {
     /// Nothing found yet.
     pub fn new(source: Arc<SourceText>) -> Self {
         let (diagnostics, by_start) = (RefCell::default(), RefCell::default());
-        Self { source, diagnostics, more: Cell::new(false), by_start, units: RefCell::default() }
+        let (units, date_origin) = (RefCell::default(), Cell::default());
+        Self { source, diagnostics, more: Cell::new(false), by_start, units, date_origin }
     }
 
     /// Parses a unit: one that the file defines, or one of the built-in units.
@@ -134,6 +138,16 @@ impl Collector {
     /// The units that the file defines.
     pub fn own_units(&self) -> Ref<'_, [Unit]> {
         Ref::map(self.units.borrow(), Vec::as_slice)
+    }
+
+    /// The day from which the dates of the file count, if it states one.
+    pub fn date_origin(&self) -> Option<Day> {
+        self.date_origin.get()
+    }
+
+    /// States the day from which the dates of the file count.
+    pub fn define_date_origin(&self, origin: Day) {
+        self.date_origin.set(Some(origin));
     }
 
     /// Parses a formula; its brackets may contain units of the file.

@@ -8,6 +8,7 @@
 pub mod angle_branches;
 pub mod bytes;
 pub mod column_heading;
+pub mod date;
 pub mod deviation_words;
 mod diagnostic_kind;
 mod diagnostics;

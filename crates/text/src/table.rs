@@ -3,6 +3,7 @@
 use std::ops::Range;
 use std::sync::Arc;
 
+use super::date::Day;
 use super::diagnostics::Collector;
 use super::folder::Folder;
 use super::source::{Place, SourceText};
@@ -30,6 +31,8 @@ pub struct Table {
     /// For each column the power of ten of the last written digit of any of its numbers; `None` for
     /// a column that was not wanted.
     pub last_digits: Vec<Option<i32>>,
+    /// Whether each column has dates, of which the values are numbers of days.
+    pub are_days: Vec<bool>,
     /// The position of each row in the text.
     lines: Vec<Range<usize>>,
     separator: Separator,
@@ -84,6 +87,19 @@ pub fn read(
     named: &Range<usize>,
     wanted: Option<&[&str]>,
 ) -> Option<(Table, Vec<u8>)> {
+    read_dated(log, folder, name, named, wanted, None)
+}
+
+/// As [`read`], with columns that may have dates ([`Table::are_days`]): they become numbers of days
+/// since `origin`.
+pub fn read_dated(
+    log: &Collector,
+    folder: Folder<'_>,
+    name: &str,
+    named: &Range<usize>,
+    wanted: Option<&[&str]>,
+    origin: Option<Day>,
+) -> Option<(Table, Vec<u8>)> {
     let bytes = match folder.content(name, bytes::MOST) {
         Ok(bytes) => bytes,
         Err(kind) => {
@@ -91,7 +107,7 @@ pub fn read(
             return None;
         }
     };
-    let kinds = match read_bytes(bytes, &folder.shown(name), wanted) {
+    let kinds = match read_bytes(bytes, &folder.shown(name), wanted, origin) {
         Ok(read) => return Some(read),
         Err(kinds) => kinds,
     };
@@ -113,6 +129,7 @@ fn read_bytes(
     bytes: Vec<u8>,
     name: &str,
     wanted: Option<&[&str]>,
+    origin: Option<Day>,
 ) -> Result<(Table, Vec<u8>), PlacedKinds> {
     let unreadable = |message: String| {
         let place = Place { source: SourceText::new(name, ""), span: 0..0 };
@@ -121,7 +138,7 @@ fn read_bytes(
     let text = bytes::text(&bytes).map_err(unreadable)?;
     let source = SourceText::new(name, &text);
     drop(text);
-    match parse(&source, wanted) {
+    match parse_dated(&source, wanted, origin) {
         Ok(table) => Ok((table, bytes)),
         // the content may be anything, and is not quoted
         Err(_) if !has_numbers(&source.text) => {
@@ -151,6 +168,14 @@ fn has_numbers(text: &str) -> bool {
 /// # Errors
 /// All errors, each with its position.
 pub fn parse(source: &Arc<SourceText>, wanted: Option<&[&str]>) -> Result<Table, PlacedKinds> {
+    parse_dated(source, wanted, None)
+}
+
+fn parse_dated(
+    source: &Arc<SourceText>,
+    wanted: Option<&[&str]>,
+    origin: Option<Day>,
+) -> Result<Table, PlacedKinds> {
     let starts: Vec<usize> = std::iter::once(0)
         .chain(source.text.match_indices('\n').map(|(newline, _)| newline + 1))
         .collect();
@@ -225,6 +250,7 @@ pub fn parse(source: &Arc<SourceText>, wanted: Option<&[&str]>) -> Result<Table,
     let mut rows = Vec::new();
     let mut last_digits: Vec<Option<i32>> = vec![None; columns.len()];
     let mut lines = Vec::new();
+    let mut are_days = vec![false; columns.len()];
     for (number, record) in reader.records().enumerate() {
         if kinds.len() >= MOST_FAULTS {
             break;
@@ -263,9 +289,17 @@ pub fn parse(source: &Arc<SourceText>, wanted: Option<&[&str]>) -> Result<Table,
                 row.push(f64::NAN);
                 continue;
             }
+            if let (Some(origin), Some(day)) = (origin, Day::parse(cell)) {
+                let is_first = rows.is_empty();
+                if is_first || are_days[number_of_cell] {
+                    are_days[number_of_cell] = true;
+                    row.push(day.since(origin));
+                    continue;
+                }
+            }
             let read = marks.with_point(cell).map(|text| (text.parse::<f64>(), text));
             let diagnostic = match read {
-                Ok((Ok(value), text)) if value.is_finite() => {
+                Ok((Ok(value), text)) if value.is_finite() && !are_days[number_of_cell] => {
                     let last = power_of_last_digit(&text);
                     let finest = &mut last_digits[number_of_cell];
                     *finest = Some(finest.map_or(last, |known| known.min(last)));
@@ -292,7 +326,7 @@ pub fn parse(source: &Arc<SourceText>, wanted: Option<&[&str]>) -> Result<Table,
         kinds.push((at_line(header_line), DiagnosticKind::Table { reason }));
     }
     if kinds.is_empty() {
-        Ok(Table { source: source.clone(), columns, rows, last_digits, lines, separator })
+        Ok(Table { source: source.clone(), columns, rows, last_digits, are_days, lines, separator })
     } else {
         Err(kinds)
     }

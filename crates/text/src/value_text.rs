@@ -1,7 +1,6 @@
 //! Values as people write them: a number with a unit, `"100 ohm"`, `"20 degC"`.
 
 use super::sexagesimal;
-use super::width::number;
 pub use gumption_columns::ValueOf;
 use gumption_engine::number::Shortest;
 use gumption_units::Unit;
@@ -18,6 +17,37 @@ pub fn with_unit(text: &str) -> Option<(f64, &str)> {
             || matches!(c, '%' | '‰' | '°' | '℃' | '℉' | '√' | '\'' | '"' | '′' | '″')
     });
     (value.is_finite() && (begins_unit || is_comma(rest))).then_some((value, rest))
+}
+
+/// The number at the start of a term, perhaps with a power of ten as it is printed (`5×10⁻⁴`), and the
+/// rest.
+///
+/// # Errors
+/// The term does not begin with a number, as a sentence without a capital.
+pub fn number(term: &str) -> Result<(f64, &str), String> {
+    let longest = term
+        .char_indices()
+        .map(|(at, c)| at + c.len_utf8())
+        .take_while(|&end| end <= 40)
+        .filter_map(|end| {
+            let text = term.get(..end)?;
+            let plain = !text.chars().any(|c| c.is_alphabetic() && !matches!(c, 'e' | 'E'));
+            if plain { Some((text.parse::<f64>().ok()?, end)) } else { None }
+        })
+        .last();
+    let Some((value, end)) = longest else {
+        let shown = if term.is_empty() { "an empty term".to_owned() } else { format!("`{term}`") };
+        return Err(format!("{shown} does not begin with a number"));
+    };
+    let (mantissa, rest) = term.split_at(end);
+    if let Some((power, after)) = times_power_of_ten(rest).filter(|(_, after)| {
+        // `5*10^-4` alone is a product in a formula
+        !rest.trim_start().starts_with('*') || after.trim_start().starts_with(char::is_alphabetic)
+    }) && let Ok(value) = format!("{mantissa}e{power}").parse()
+    {
+        return Ok((value, after.trim()));
+    }
+    Ok((value, rest.trim()))
 }
 
 /// The number of a text that contains nothing else. Its unit is that of the quantity, as without
@@ -73,27 +103,35 @@ pub fn with_plus_minus(text: &str) -> String {
 pub fn with_exponents(text: &str) -> String {
     let mut written = String::new();
     let mut rest = text;
-    while let Some(at) = rest.find(['×', '·', '⋅', '*', 'x']) {
+    while let Some(at) = rest.find(TIMES) {
         let (before, behind) = rest.split_at(at);
-        let sign = behind.chars().next().map_or(0, char::len_utf8);
-        let behind = behind.get(sign..).unwrap_or_default();
         written.push_str(before);
         let mantissa = written.trim_end();
         let is_mantissa =
             mantissa.ends_with(|c: char| c.is_ascii_digit() || matches!(c, '.' | ')'));
-        match power_of_ten(behind.trim_start()).filter(|_| is_mantissa) {
+        match times_power_of_ten(behind).filter(|_| is_mantissa) {
             Some((power, after)) => {
                 written.truncate(mantissa.len());
                 written.push_str(&format!("e{power}"));
                 rest = after;
             }
             None => {
-                written.push_str(rest.get(at..at + sign).unwrap_or_default());
-                rest = behind;
+                let sign = behind.chars().next().map_or(0, char::len_utf8);
+                let (sign, after) = behind.split_at(sign);
+                written.push_str(sign);
+                rest = after;
             }
         }
     }
     written + rest
+}
+
+/// Signs of multiplication before a power of ten.
+const TIMES: [char; 5] = ['×', '·', '⋅', '*', 'x'];
+
+/// The power of ten by which a text multiplies the number before it, `×10⁻³`, and what follows.
+pub(crate) fn times_power_of_ten(text: &str) -> Option<(i32, &str)> {
+    power_of_ten(text.trim_start().strip_prefix(TIMES)?.trim_start())
 }
 
 /// Raised digits, by their values.

@@ -206,8 +206,10 @@ const DOSE: [i8; 7] = [0, 2, -2, 0, 0, 0, 0];
 ///
 /// Base and named derived units: SI Brochure, 9th ed., tables 2 and 4. Non-SI units accepted for
 /// use with the SI: table 8. The standard acceleration of free fall, 9.80665 m/s^2, is that of the
-/// 3rd CGPM (1901). The conventional millimetre of mercury, the inch, foot, pound, pound-force and
-/// psi follow NIST SP 811, appendix B; the atmosphere is 101 325 Pa and the torr 1/760 of it. The
+/// 3rd CGPM (1901). The conventional millimetre of mercury, the inch, foot, mile, pound, pound-force
+/// and psi follow NIST SP 811, appendix B; an ozf is 1/16 lbf, a kip 1000 lbf, a ksi 1000 psi, a slug
+/// 1 lbf s^2/ft. The fluid ounce of the US is 1/128 of a gallon of 231 cubic inches, the imperial one
+/// 1/160 of a gallon of 4.546 09 L (SP 811, B.6). The atmosphere is 101 325 Pa and the torr 1/760 of it. The
 /// conventional inch of mercury is 25.4 mmHg; columns of water are of 1000 kg/m^3 under g_n. The
 /// carat is the metric one of 0.2 g (4th CGPM, 1907). The year is the Julian one of 365.25 days, the
 /// month a twelfth of it. The neper is 20/ln(10) dB.
@@ -271,11 +273,18 @@ pub(super) static SYMBOLS: &[Symbol] = &[
     bare("ha", AREA, (1, 1), 4).named("hectare"),
     bare("in", LENGTH, (254, 1), -4),
     bare("ft", LENGTH, (3_048, 1), -4),
+    bare("mi", LENGTH, (1_609_344, 1), -3),
+    bare("floz_us", VOLUME, (295_735_295_625, 1), -16),
+    bare("floz_imp", VOLUME, (284_130_625, 1), -13),
     bare("lb", MASS, (45_359_237, 1), -8),
+    bare("slug", MASS, (44_482_216_152_605, 3_048), -9),
     bare("ct", MASS, (2, 1), -4),
     bare("lbf", FORCE, (44_482_216_152_605, 1), -13),
+    bare("ozf", FORCE, (44_482_216_152_605, 16), -13),
+    bare("kip", FORCE, (44_482_216_152_605, 1), -10),
     bare("kgf", FORCE, (980_665, 1), -5),
     bare("psi", PRESSURE, (44_482_216_152_605, 64_516), -5),
+    bare("ksi", PRESSURE, (44_482_216_152_605, 64_516), -2),
     bare("mmHg", PRESSURE, (133_322_387_415, 1), -9),
     bare("inHg", PRESSURE, (3_386_388_640_341, 1), -9),
     bare("mmH2O", PRESSURE, (980_665, 1), -5),

@@ -42,6 +42,11 @@ const RIGHT: &[Right] = &[
     ("ug_n", 9.80665e-6, "m s^-2"), ("eV", 1.602176634e-19, "kg m^2 s^-2"),
     ("keV", 1.602176634e-16, "kg m^2 s^-2"), ("Da", 1.66053906660e-27, "kg"),
     ("u", 1.66053906660e-27, "kg"), ("au", 149597870700.0, "m"), ("ha", 1e4, "m^2"),
+    // SP 811, B.6 and B.8, by rational arithmetic from the pound, the foot, g_n and the two gallons
+    ("ozf", 0.2780138509537812, "kg m s^-2"), ("kip", 4448.2216152605, "kg m s^-2"),
+    ("ksi", 6894757.293168361, "kg m^-1 s^-2"), ("mi", 1609.344, "m"),
+    ("slug", 14.593902937206364, "kg"), ("floz_us", 2.95735295625e-5, "m^3"),
+    ("floz_imp", 2.84130625e-5, "m^3"),
     ("in", 0.0254, "m"), ("ft", 0.3048, "m"), ("lb", 0.45359237, "kg"),
     ("lbf", 4.4482216152605, "kg m s^-2"), ("kgf", 9.80665, "kg m s^-2"),
     ("psi", 6894.757293168362, "kg m^-1 s^-2"), ("lbf/in^2", 6894.757293168362, "kg m^-1 s^-2"),
@@ -182,6 +187,7 @@ const WRONG: &[Wrong] = &[
     ("parsec", "unknown", 0, "parsec", &["arcsec"]), ("µ", "unknown", 0, "µ", &[]),
     ("counts", "unknown", 0, "counts", &["count"]), ("krads", "unknown", 0, "krads", &["krad"]),
     ("neper", "unknown", 0, "neper", &["Np"]), ("HRC", "unknown", 0, "HRC", &[]), ("%FS", "unknown", 0, "%FS", &["%"]),
+    ("floz", "unknown", 0, "floz", &["floz_us", "floz_imp"]), ("mile", "unknown", 0, "mile", &["mi"]),
     ("lsb", "unknown", 0, "lsb", &["LSB"]), ("gal", "unknown", 0, "gal", &["Gal", "3.785411784*L"]),
     ("м", "unknown", 0, "м", &[]), ("_", "unknown", 0, "_", &[]),
     // Prefixes.

@@ -81,7 +81,7 @@ impl<'a> TrialBudget<'a> {
                 Plannable::Not("paired readings: their number is that of all of them")
             }
             Distribution::Readings(readings) => {
-                let count = readings.values().len();
+                let count = readings.count();
                 // if the scatter of these readings determines it
                 if known.dof() == count as f64 - 1.0 {
                     Plannable::Readings(count as u64)

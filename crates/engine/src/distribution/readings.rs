@@ -13,7 +13,9 @@ use crate::number::Column;
 /// t distribution of JCGM 102, 5.3, with n - N degrees of freedom for N quantities.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Readings {
+    /// Empty where only the summary of the readings is known.
     values: Vec<f64>,
+    count: usize,
     mean: f64,
     scale: f64,
     /// Number of quantities read together, including this one.
@@ -48,6 +50,7 @@ impl Readings {
         if differ {
             Ok(Self {
                 values,
+                count,
                 mean: finite("the mean of the values", origin + offset)?,
                 scale: finite("the scatter of the values", scale)?,
                 together: 1,
@@ -58,13 +61,34 @@ impl Readings {
         }
     }
 
+    /// A Type A evaluation of at least two readings of which only their mean, the standard deviation of
+    /// one reading and their number are known: the same distribution as that of the readings.
+    ///
+    /// # Errors
+    /// Fewer than two readings, values that are not finite, a standard deviation that is not above 0.
+    pub fn of_summary(mean: f64, standard_deviation: f64, count: usize) -> Result<Self, Invalid> {
+        if count < 2 {
+            return Err(Invalid::TooFewReadings { count });
+        }
+        if standard_deviation == 0.0 {
+            return Err(Invalid::NoScatter { count });
+        }
+        let (parameter, value) = ("s", finite("s", standard_deviation)?);
+        if value < 0.0 {
+            return Err(Invalid::NotPositive { parameter, value });
+        }
+        let scale = standard_deviation / (count as f64).sqrt();
+        let mean = finite("mean", mean)?;
+        Ok(Self { values: Vec::new(), count, mean, scale, together: 1, bayesian: false })
+    }
+
     /// The same readings, taken together with those of other quantities: `together` quantities,
     /// including this one. All paired readings of equal length are drawn together, and there must
     /// be `together` of them.
     ///
     /// # Errors
     /// There are not more than `together` readings, so that there is no joint distribution. With
-    /// one or two more it has no covariance ([`Readings::have_covariance`]).
+    /// one or two more it has no covariance ([`Readings::have_covariance`]). A summary has no readings.
     pub fn paired(self, together: usize) -> Result<Self, Invalid> {
         let count = self.values.len();
         if count > together {
@@ -77,12 +101,12 @@ impl Readings {
     /// Whether the joint t distribution of the paired readings, with n - N degrees of freedom, has
     /// a covariance (JCGM 102, 5.3): more than N + 2 readings of each of N quantities.
     pub fn have_covariance(&self) -> bool {
-        self.values.len() > self.together + 2
+        self.count > self.together + 2
     }
 
     /// The error for trials of paired readings without a covariance; `None` for other readings.
     pub fn without_covariance(&self) -> Option<Invalid> {
-        let (count, together) = (self.values.len(), self.together);
+        let (count, together) = (self.count, self.together);
         (together > 1 && !self.have_covariance())
             .then_some(Invalid::TooFewPaired { count, together })
     }
@@ -93,7 +117,7 @@ impl Readings {
     /// # Errors
     /// Fewer than four readings, for which this standard deviation does not exist.
     pub fn bayesian(self) -> Result<Self, Invalid> {
-        let count = self.values.len();
+        let count = self.count;
         if count < 4 {
             let (value, range) = (count as f64, "at least 4 for a Bayesian evaluation");
             return Err(Invalid::OutOfRange { parameter: "values", value, range });
@@ -109,13 +133,18 @@ impl Readings {
     /// The scale of the t distribution from which trials are drawn: s/sqrt(n), for paired readings
     /// with the divisor n - N in s.
     pub(crate) fn drawn_scale(&self) -> f64 {
-        let dof = self.values.len() as f64 - 1.0;
+        let dof = self.count as f64 - 1.0;
         self.scale * (dof / self.drawn_dof()).sqrt()
     }
 
-    /// The readings.
+    /// The readings; empty for those of [`Readings::of_summary`].
     pub fn values(&self) -> &[f64] {
         &self.values
+    }
+
+    /// The number of readings.
+    pub fn count(&self) -> usize {
+        self.count
     }
 }
 
@@ -133,15 +162,15 @@ impl Shape for Readings {
     /// The square root of their number, by which their standard deviation is divided; 1 for a
     /// Bayesian evaluation, whose standard uncertainty is a different one.
     fn divisor(&self) -> Option<f64> {
-        Some(if self.bayesian { 1.0 } else { (self.values.len() as f64).sqrt() })
+        Some(if self.bayesian { 1.0 } else { (self.count as f64).sqrt() })
     }
 
     fn dof(&self) -> f64 {
-        if self.bayesian { f64::INFINITY } else { self.values.len() as f64 - 1.0 }
+        if self.bayesian { f64::INFINITY } else { self.count as f64 - 1.0 }
     }
 
     fn drawn_dof(&self) -> f64 {
-        self.values.len() as f64 - self.together as f64
+        self.count as f64 - self.together as f64
     }
 
     fn standard_deviation(&self) -> f64 {

@@ -256,6 +256,23 @@ fn readings_of_the_guide() {
     assert_eq!(readings.dof(), 19.0);
 }
 
+/// A summary of readings is drawn as the readings themselves: the same trials, bit for bit.
+#[test]
+fn a_summary_stands_for_the_readings() {
+    // mean 2, s = 1, without rounding
+    let listed = Readings::new(vec![1.0, 2.0, 3.0]).unwrap();
+    let summary = Readings::of_summary(2.0, 1.0, 3).unwrap();
+    assert_eq!((summary.dof(), summary.count(), summary.values().len()), (2.0, 3, 0));
+    let [listed, summary] = [listed, summary].map(Distribution::from);
+    assert!((summary.standard_uncertainty() - 1.0 / 3_f64.sqrt()).abs() < 1e-16);
+    assert_eq!(draws(&summary, BLOCK), draws(&listed, BLOCK));
+    assert_eq!(summary.divisor(), listed.divisor());
+    for (s, n) in [(0.0, 3), (-1.0, 3), (1.0, 1), (f64::NAN, 3)] {
+        assert!(Readings::of_summary(2.0, s, n).is_err(), "{s} {n}");
+    }
+    assert!(Readings::of_summary(2.0, 1.0, 9).unwrap().paired(2).is_err());
+}
+
 /// The t of few degrees of freedom has no variance, yet no draw is lost: the largest of a million
 /// draws with half a degree of freedom is huge and finite.
 #[test]

@@ -6,7 +6,8 @@ use super::stream::Stream;
 use crate::number::{COLUMN, Column, elementary};
 use crate::special::tails::moments;
 
-/// The smallest accepted probability within the limits.
+/// The smallest accepted probability within the limits, as a share of the numbers of which it is the
+/// difference: four digits of it are left.
 const LEAST: f64 = 1e-12;
 
 /// A distribution truncated to the range between two limits. Its estimate and its standard
@@ -29,8 +30,9 @@ impl Truncated {
     /// A distribution between two limits, one of which may be infinite.
     ///
     /// # Errors
-    /// Limits that are not in order, or that leave a probability below 1e-12; a distribution that
-    /// cannot be truncated: one without quantiles, a saved result, a constant.
+    /// Limits that are not in order, or that leave a probability below 1e-12, of the tail if both limits
+    /// lie in one whose quantiles are known; a distribution that cannot be truncated: one without
+    /// quantiles, a saved result, a constant.
     pub fn cut(base: Distribution, lower: f64, upper: f64) -> Result<Distribution, Invalid> {
         if lower.is_nan() || upper.is_nan() || lower >= upper {
             return Err(Invalid::LimitsReversed { lower, upper });
@@ -67,14 +69,16 @@ impl Truncated {
         let below = share(lower, |p| base.quantile(p));
         let above = share(-upper, |q| -base.quantile_upper(q));
         // in a tail the difference of two small probabilities
-        let left = if below > 0.5 {
-            share(-lower, |q| -base.quantile_upper(q)) - above
+        let (left, tail) = if below > 0.5 {
+            let tail = share(-lower, |q| -base.quantile_upper(q));
+            (tail - above, Some(tail).filter(|_| is_resolved(|q| base.quantile_upper(q))))
         } else if above > 0.5 {
-            share(upper, |p| base.quantile(p)) - below
+            let tail = share(upper, |p| base.quantile(p));
+            (tail - below, Some(tail).filter(|_| is_resolved(|p| base.quantile(p))))
         } else {
-            1.0 - below - above
+            (1.0 - below - above, None)
         };
-        if left < LEAST {
+        if left <= LEAST * tail.unwrap_or(1.0) {
             return out_of_range(lower);
         }
         let mut made =
@@ -96,6 +100,11 @@ impl Truncated {
     pub fn limits(&self) -> [f64; 2] {
         [self.lower, self.upper]
     }
+}
+
+/// Whether a quantile function has values of its own far out in its tail.
+fn is_resolved(quantile: impl Fn(f64) -> f64) -> bool {
+    quantile(1e-300) != quantile(1e-20)
 }
 
 /// Whether a tail is as long as that of a t distribution with 2 degrees of freedom, whose quantiles
@@ -236,6 +245,22 @@ mod tests {
         assert_eq!(of.dof(), 5.0);
     }
 
+    /// Limits in the tail of a standard normal distribution, where less than 1e-15 of it lies; mpmath
+    /// with 40 digits from (phi(a) - phi(b))/(Q(a) - Q(b)) and the like. The quadrature leaves 1e-10.
+    #[test]
+    fn limits_far_out_in_a_tail() {
+        for (lower, upper, mean, std) in [
+            (20.0, 30.0, 20.049_753_068_527_851, 0.049_631_256_432_334_69),
+            (8.0, 9.0, 8.121_188_992_979_797, 0.118_947_647_235_024_76),
+            (-9.0, -8.0, -8.121_188_992_979_797, 0.118_947_647_235_024_76),
+        ] {
+            let of = Truncated::cut(Normal::new(0.0, 1.0).unwrap().into(), lower, upper).unwrap();
+            assert!((of.mean() - mean).abs() < 1e-10 * std, "{lower}: {}", of.mean());
+            let u = of.standard_uncertainty();
+            assert!((u / std - 1.0).abs() < 1e-9, "{lower}: {u}");
+        }
+    }
+
     /// The second moment of a t distribution with 2 degrees of freedom or fewer is infinite unless
     /// both sides are truncated.
     #[test]
@@ -257,7 +282,10 @@ mod tests {
     #[test]
     fn limits_that_leave_nothing() {
         let normal = || Distribution::from(Normal::new(0.0, 1.0).unwrap());
-        assert!(Truncated::cut(normal(), 20.0, 30.0).is_err());
+        assert!(Truncated::cut(normal(), 40.0, 50.0).is_err());
+        assert!(Truncated::cut(normal(), 0.0, 1e-13).is_err());
+        let flat = Distribution::from(Rectangular::between(0.0, 1.0).unwrap());
+        assert!(Truncated::cut(flat, 1.0 - 1e-14, 2.0).is_err());
         assert!(Truncated::cut(normal(), 2.0, 1.0).is_err());
         assert!(Truncated::cut(normal(), f64::NAN, 1.0).is_err());
         let moved = Truncated::cut(normal(), -1.0, 2.0).unwrap().moved_to(10.0).unwrap();

@@ -141,7 +141,12 @@ impl fmt::Display for RegressionError {
                 "the uncertainties of x are stated and those of y are not; state both, or neither",
             ),
             Self::Undefined { point } => {
-                write!(f, "the curve has no value at point {}", point + 1)
+                write!(
+                    f,
+                    "the curve has no value at point {} with the parameters that the search has \
+                     reached; other values of `start` may help",
+                    point + 1
+                )
             }
             Self::NotConverged { steps } => write!(
                 f,

@@ -146,6 +146,8 @@ pub struct Settings {
     pub digits: u32,
     /// Whether these digits were asked for: a certificate takes its own otherwise.
     pub own_digits: bool,
+    /// Significant digits of uncertainties on pages, if they are others than [`Settings::digits`].
+    pub shown_digits: Option<u32>,
     /// Whether the coverage factor is taken at the real number of effective degrees of freedom
     /// instead of its integer part (JCGM 100, G.4.1).
     pub real_dof: bool,
@@ -174,6 +176,7 @@ impl Default for Settings {
             for_validation: false,
             seed: 1,
             digits: 2,
+            shown_digits: None,
             own_digits: false,
             real_dof: false,
             allowed_undefined: 0.0,
@@ -212,6 +215,12 @@ impl Settings {
     pub fn with_digits(self, digits: u32) -> Self {
         Self { digits, own_digits: true, ..self }
     }
+
+    /// Significant digits of uncertainties on pages, which decide nothing: those of
+    /// [`Settings::digits`] unless others are asked for.
+    pub fn digits_on_pages(&self) -> u32 {
+        self.shown_digits.unwrap_or(self.digits)
+    }
 }
 
 /// What somebody asks for in place of the settings of a file.
@@ -235,6 +244,8 @@ pub struct SettingsChanges {
     pub statement: Option<StatementMethod>,
     /// Significant digits of the standard uncertainty that are held meaningful.
     pub digits: Option<u32>,
+    /// Significant digits of uncertainties on pages.
+    pub shown_digits: Option<u32>,
     /// Whether the coverage factor is taken at the real number of effective degrees of freedom.
     pub real_dof: bool,
 }
@@ -260,6 +271,7 @@ impl SettingsChanges {
         if let Some(digits) = self.digits {
             settings = settings.with_digits(digits);
         }
+        settings.shown_digits = self.shown_digits.or(settings.shown_digits);
         settings.real_dof |= self.real_dof;
         settings
     }

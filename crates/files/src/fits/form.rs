@@ -12,7 +12,7 @@ use gumption_text::DiagnosticKind;
 use gumption_text::json::{Json, Member};
 use gumption_text::object::Object;
 use gumption_text::value_text::{
-    ValueOf, converted, decimal_comma, grouped_digits, is_comma, with_unit,
+    ValueOf, bare_number, converted, decimal_comma, grouped_digits, is_comma, with_unit,
 };
 use gumption_units::{Turn, Unit};
 
@@ -166,8 +166,8 @@ impl<'a> FitForm<'a> {
             angle.filter(|_| is_unchecked && is_of_radians && x.factor() != 1.0)
         {
             let reason = format!(
-                "`{function}` takes radians, and x is computed with in {x}: give the parameters of `start` \
-                 with units, such as `\"1 V\"`, by which x is an angle, or x in rad"
+                "`{function}` takes radians, and x is computed with in {x}: write `{function}(x [{x}])`, or \
+                 give the parameters of `start` with units, such as `\"1 V\"`, by which x is an angle"
             );
             let (key, found) = ("form".to_owned(), formula.text().to_owned());
             fit.log.report(&member.value.span, DiagnosticKind::Value { key, found, reason });
@@ -247,7 +247,7 @@ impl Start {
                 return None;
             }
             let (unit, value) = match &member.value.value {
-                Json::Text(text) => {
+                Json::Text(text) if bare_number(text).is_none() => {
                     let read = with_unit(text).ok_or_else(|| DiagnosticKind::Value {
                         key: name.clone(),
                         found: text.clone(),
@@ -274,7 +274,7 @@ impl Start {
                         with_unit(text).map(|read| converted(read, &unit, ValueOf::Quantity, &[]));
                     (unit, value.and_then(Result::ok)?)
                 }
-                _ => (Unit::one(), object.number(name)?),
+                _ => (Unit::one(), object.value(name, &Unit::one(), ValueOf::Quantity)?),
             };
             parameters.push((name.clone(), unit, value));
         }

@@ -3,6 +3,7 @@
 use std::rc::Rc;
 
 use super::super::conditions::unit;
+use super::super::dates;
 use super::super::keys;
 use super::matrix;
 use gumption_engine::regression::Spread;
@@ -50,7 +51,9 @@ impl<'f> Tables<'f> {
         if let Some((_, known)) = self.read.iter().find(|(known, _)| known == name) {
             return Some(Rc::clone(known));
         }
-        let (table, bytes) = table::read(log, folder, name, place, Some(&self.named))?;
+        let origin = log.date_origin().unwrap_or_default();
+        let (table, bytes) =
+            table::read_dated(log, folder, name, place, Some(&self.named), Some(origin))?;
         if files.iter().all(|(known, _)| known != name) {
             files.push((name.to_owned(), bytes));
         }
@@ -127,7 +130,30 @@ fn column_of(
         return None;
     };
     column_heading::check(log, place, &table.columns[column], of).then_some(())?;
-    Some(table.rows.iter().filter_map(|row| row.get(column).copied()).collect())
+    let factor = if table.are_days[column] { days_in(log, name, place, of)? } else { 1.0 };
+    Some(table.rows.iter().filter_map(|row| row.get(column)).map(|value| factor * value).collect())
+}
+
+/// The length of a day in the unit of a column of dates, which must be of time.
+fn days_in(
+    log: &Collector,
+    name: &str,
+    place: &std::ops::Range<usize>,
+    (unit, of): (&Unit, ValueOf),
+) -> Option<f64> {
+    let day = Unit::parse("d").ok().and_then(|day| Unit::conversion_factor(&day, unit).ok());
+    let reason = match (day, of, log.date_origin()) {
+        (Some(factor), ValueOf::Quantity, Some(_)) => return Some(factor),
+        (Some(_), ValueOf::Quantity, None) => {
+            format!("its column has dates; {}", dates::without_origin())
+        }
+        _ => format!(
+            "its column has dates, which are numbers of days, but its unit is `{unit}`: write \
+             `\"unit\": \"d\"` or `\"unit\": \"year\"`"
+        ),
+    };
+    log.report(place, DiagnosticKind::Fit { name: name.to_owned(), reason });
+    None
 }
 
 /// What is stated of the uncertainty.
@@ -176,7 +202,8 @@ fn spread(
                     column_of(log, column(text)?, name, text, &member.value.span, of)?
                 }
                 _ => {
-                    let width = Width::read(log, &member.value, name, "standard_uncertainty", unit);
+                    let width =
+                        Width::read(log, &member.value, name, "standard_uncertainty", unit, None);
                     let width = log.value(&member.value.span, width)?;
                     values.iter().map(|value| width.at(*value)).collect()
                 }

@@ -383,3 +383,90 @@ fn columns_that_a_fit_does_not_name_may_hold_anything() {
     let wrong = read(&text.replace("\"column\": \"p\"", "\"column\": \"remark\"")).unwrap_err();
     assert!(wrong.to_string().contains("`remark`"), "{wrong}");
 }
+
+/// A model of a line over dates, with more keys of x, the values of y and an input.
+fn over_dates(root: &str, x: &str, day: &str) -> String {
+    format!(
+        r#"{{{root} "fits": {{"line": {{"x": {{{x}}},
+            "y": {{"unit": "uV", "values": [10, 13.66, 17.31], "standard_uncertainty": 0.1}}}}}},
+        "inputs": {{"day": {day}}}, "equations": {{"V": "line(day)"}},
+        "outputs": {{"V": {{"unit": "uV"}}}}, "monte_carlo": {{"trials": 0}}}}"#
+    )
+}
+
+/// Three calibrations in consecutive years, the first of which begins before a leap day: 0, 366 and 731
+/// days after 2023-07-01, with a drift of 0.01 uV a day without rounding; 1096 days are three years of
+/// which one has a leap day.
+#[test]
+fn a_line_over_dates() {
+    let origin = r#""date_origin": "2023-07-01","#;
+    let dates = r#""values": ["2023-07-01", "2024-07-01", "2025-07-01"]"#;
+    let in_days = format!(r#""unit": "d", {dates}"#);
+    let value = |text: &str| {
+        let evaluation = run(text);
+        gum(&evaluation, 0).estimate
+    };
+    let used = r#"{"unit": "d", "value": "2026-07-01"}"#;
+    near(value(&over_dates(origin, &in_days, used)), 10.0 + 10.96, 1e-12);
+    near(value(&over_dates(origin, &in_days, "\"2026-07-01\"")), 10.0 + 10.96, 1e-12);
+    near(value(&over_dates(origin, &in_days, r#"{"unit": "d", "value": 1096}"#)), 20.96, 1e-12);
+    let earlier = r#""date_origin": "2020-01-01","#;
+    near(value(&over_dates(earlier, &in_days, used)), 20.96, 1e-11);
+    let in_years = format!(r#""unit": "year", {dates}"#);
+    near(value(&over_dates(origin, &in_years, used)), 20.96, 1e-12);
+    let moved = crate::Override::parse("day=2024-06-30").unwrap();
+    let file =
+        read_text("t", &over_dates(origin, &in_days, used), Path::new(""), &[moved]).unwrap();
+    near(gum(&evaluate(&file.task, &Control::default()).unwrap(), 0).estimate, 13.65, 1e-12);
+    assert_eq!(file.warnings[0].code(), "date-origin");
+
+    let folder = tempfile::tempdir().unwrap();
+    let table = "when,note\n2023-07-01,new\n2024-07-01,\n2025-07-01,used\n";
+    std::fs::write(folder.path().join("c.csv"), table).unwrap();
+    let of_table = r#""unit": "d", "file": "c.csv", "column": "when""#;
+    let file = read_text("t", &over_dates(origin, of_table, used), folder.path(), &[]).unwrap();
+    near(gum(&evaluate(&file.task, &Control::default()).unwrap(), 0).estimate, 20.96, 1e-12);
+    let refused = |text: &str| read_text("t", text, folder.path(), &[]).unwrap_err().to_string();
+    for (text, said) in [
+        (over_dates("", &in_days, used), "\"date_origin\""),
+        (over_dates("", of_table, "3"), "\"date_origin\""),
+        (over_dates(r#""date_origin": "2023-02-29","#, &in_days, used), "must be a day"),
+        (over_dates(origin, &format!(r#""unit": "kN", {dates}"#), used), "kN"),
+        (over_dates(origin, &of_table.replace("\"d\"", "\"kN\""), "3"), "numbers of days"),
+    ] {
+        let error = refused(&text);
+        assert!(error.contains(said), "{said}: {error}");
+    }
+}
+
+/// A number given as text is a start value, as where other values are read.
+#[test]
+fn a_start_value_may_be_a_text() {
+    let of = |start: &str| {
+        run(&format!(
+            r#"{{"fits": {{"f": {{"form": "a*exp(-b*x)", "start": {{"a": {start}, "b": "0.5"}},
+                "x": {{"values": [0, 1, 2, 3]}},
+                "y": {{"values": [2, 1.2, 0.75, 0.44], "standard_uncertainty": 0.01}}}}}},
+            "equations": {{"y": "f(1.5)"}}, "outputs": {{"y": {{}}}}, "monte_carlo": {{"trials": 0}}}}"#
+        ))
+    };
+    assert_eq!(gum(&of("\"3\""), 0).estimate, gum(&of("3"), 0).estimate);
+}
+
+/// A sine of degrees with plain numbers: `sin(x [deg])`, and without the unit the message says so.
+#[test]
+fn a_sine_of_degrees_with_plain_numbers() {
+    let of = |form: &str| {
+        format!(
+            r#"{{"fits": {{"f": {{"form": "{form}", "start": {{"a": 0, "b": 1}},
+                "x": {{"unit": "deg", "values": [0, 30, 90, 150]}},
+                "y": {{"values": [0.5, 1.5, 2.5, 1.5], "standard_uncertainty": 0.01}}}}}},
+            "equations": {{"y": "f(30 [deg])"}}, "outputs": {{"y": {{}}}},
+            "monte_carlo": {{"trials": 0}}}}"#
+        )
+    };
+    // 0.5 + 2 sin(x) goes through all points
+    near(gum(&run(&of("a + b*sin(x [deg])")), 0).estimate, 1.5, 1e-9);
+    let error = read_text("t", &of("a + b*sin(x)"), Path::new(""), &[]).unwrap_err().to_string();
+    assert!(error.contains("`sin(x [deg])`"), "{error}");
+}

@@ -42,6 +42,9 @@ pub(crate) const MODEL: &[Key] = keys![
                 object([("anyOf", Value::from(vec![reference("input"), reference("stated")]))]),
             ),
     "fits" => reference("fits"),
+    "date_origin" => text_of(
+        "The day from which dates count, as `2020-01-01`: a date as a value is the number of days since it.",
+    ),
     "correlations" => described("array", "Correlation coefficients of inputs or components.")
                 .with("items", reference("correlation")),
     "correlation_matrix" => reference("correlation-matrix"),
@@ -63,6 +66,9 @@ pub(crate) const MODEL: &[Key] = keys![
     "coverage_factor_fixed" => described("boolean", "Keep the coverage factor whatever the degrees of freedom."),
     "statement" => referenced("statement", "Which method gives the stated value and U; `auto` unless given."),
     "statement_tolerance" => reference("statement-tolerance"),
+    "shown_digits" => whole(
+        "Significant digits of uncertainties on pages; the `digits` of `monte_carlo` unless given.", 1, 15
+    ),
     "monte_carlo" => reference("monte-carlo"),
     "method" => object([
         (

@@ -25,6 +25,8 @@ enum Rule {
     All(&'static [&'static str]),
     /// One of these.
     One(&'static [&'static str]),
+    /// Readings, or their number and standard deviation with an estimate.
+    Readings,
     /// An estimate, and a standard or an expanded uncertainty.
     Uncertainty,
     /// An estimate and a half-width, or two limits; and the others.
@@ -45,7 +47,7 @@ pub(crate) static SHAPES: [FileShape; 26] = [
         aliases: &["gaussian"],
         about: "Normal. With `expanded` the coverage factor `k` or the coverage probability `p` is \
                 needed; with `dof` it is drawn as the scaled and shifted t of JCGM 101, 6.4.9.7.",
-        fields: &["mean", "std", "expanded", "k", "p", "dof"],
+        fields: &["mean", "std", "expanded", "k", "p", "dof", "resolution", "range", "full_scale"],
         rule: Rule::Uncertainty,
     },
     FileShape {
@@ -53,7 +55,17 @@ pub(crate) static SHAPES: [FileShape; 26] = [
         aliases: &["uniform"],
         about: "Rectangular (uniform) within limits; with `dof` it is drawn as the curvilinear \
                 trapezoid of inexactness half_width/sqrt(2 dof) (JCGM 101, 6.4.3).",
-        fields: &["mean", "half_width", "semi_range", "lower", "upper", "dof"],
+        fields: &[
+            "mean",
+            "half_width",
+            "semi_range",
+            "lower",
+            "upper",
+            "dof",
+            "resolution",
+            "range",
+            "full_scale",
+        ],
         rule: Rule::Limits(&[]),
     },
     FileShape {
@@ -62,7 +74,18 @@ pub(crate) static SHAPES: [FileShape; 26] = [
         about: "Triangular within limits; with `lower` and `upper` the mode may lie off the \
                 middle. With `dof` every trial has a width of its own, which is up to the share \
                 1/sqrt(2 dof) off.",
-        fields: &["mean", "half_width", "semi_range", "lower", "upper", "mode", "dof"],
+        fields: &[
+            "mean",
+            "half_width",
+            "semi_range",
+            "lower",
+            "upper",
+            "mode",
+            "dof",
+            "resolution",
+            "range",
+            "full_scale",
+        ],
         rule: Rule::Limits(&[]),
     },
     FileShape {
@@ -70,7 +93,18 @@ pub(crate) static SHAPES: [FileShape; 26] = [
         aliases: &[],
         about: "Symmetric trapezoidal within limits (JCGM 101, 6.4.4); with `dof` drawn as a \
                 triangular one.",
-        fields: &["mean", "half_width", "semi_range", "lower", "upper", "beta", "dof"],
+        fields: &[
+            "mean",
+            "half_width",
+            "semi_range",
+            "lower",
+            "upper",
+            "beta",
+            "dof",
+            "resolution",
+            "range",
+            "full_scale",
+        ],
         rule: Rule::Limits(&["beta"]),
     },
     FileShape {
@@ -84,14 +118,23 @@ pub(crate) static SHAPES: [FileShape; 26] = [
         name: "arcsine",
         aliases: &["u-shaped"],
         about: "Arcsine (U-shaped) within limits: a sinusoidal cycle (JCGM 101, 6.4.6).",
-        fields: &["mean", "half_width", "semi_range", "lower", "upper"],
+        fields: &[
+            "mean",
+            "half_width",
+            "semi_range",
+            "lower",
+            "upper",
+            "resolution",
+            "range",
+            "full_scale",
+        ],
         rule: Rule::Limits(&[]),
     },
     FileShape {
         name: "t",
         aliases: &["student-t"],
         about: "Scaled and shifted t; its standard uncertainty by the GUM is `scale`.",
-        fields: &["mean", "scale", "dof"],
+        fields: &["mean", "scale", "dof", "resolution", "range", "full_scale"],
         rule: Rule::Estimate("mean", &["scale", "dof"]),
     },
     FileShape {
@@ -101,6 +144,9 @@ pub(crate) static SHAPES: [FileShape; 26] = [
                 the scaled and shifted t of JCGM 101, 6.4.9.2.",
         fields: &[
             "values",
+            "mean",
+            "s",
+            "n",
             "paired",
             "file",
             "column",
@@ -109,7 +155,7 @@ pub(crate) static SHAPES: [FileShape; 26] = [
             "pooled",
             "evaluation",
         ],
-        rule: Rule::One(&["values", "file"]),
+        rule: Rule::Readings,
     },
     FileShape {
         name: "exponential",
@@ -129,7 +175,7 @@ pub(crate) static SHAPES: [FileShape; 26] = [
         name: "lognormal",
         aliases: &[],
         about: "Log-normal; `mean` and `std` are those of the quantity itself.",
-        fields: &["mean", "std"],
+        fields: &["mean", "std", "resolution", "range", "full_scale"],
         rule: Rule::All(&["mean", "std"]),
     },
     FileShape {
@@ -207,7 +253,7 @@ pub(crate) static SHAPES: [FileShape; 26] = [
         name: "split-normal",
         aliases: &[],
         about: "Two halves of normal distributions, joined at the mode: 5 +0.2 -0.1.",
-        fields: &["mode", "std_low", "std_high"],
+        fields: &["mode", "std_low", "std_high", "resolution", "range", "full_scale"],
         rule: Rule::All(&["mode", "std_low", "std_high"]),
     },
     FileShape {
@@ -255,6 +301,12 @@ fn field(shape: &str, key: &str) -> Value {
         }
         (_, "mean" | "value") => reference("estimate"),
         (_, "std") => referenced("width", "Standard uncertainty."),
+        (_, "s") => referenced(
+            "width",
+            "Standard deviation of one reading, where the readings themselves are not known; with `n` \
+             and `mean`.",
+        ),
+        (_, "n") => described("integer", "The number of readings of `s`.").with("minimum", 1),
         (_, "expanded") => referenced("width", "Expanded uncertainty U = k u."),
         (_, "k") => referenced("positive", "Coverage factor of `expanded`."),
         (_, "p") => referenced("probability", "Coverage probability of `expanded`."),
@@ -324,11 +376,16 @@ fn field(shape: &str, key: &str) -> Value {
             "The column of the file that numbers the groups of a nested design (days, set-ups): the \
              standard uncertainty is that of the means of the groups (JCGM 100, H.5).",
         ),
-        (_, "resolution") => referenced(
+        ("readings", "resolution") => referenced(
             "width",
             "The step of the indication; where its rectangular half is more than the scatter, that \
              is taken (JCGM 100, F.2.2.1). Equal readings are allowed with it.",
         ),
+        (_, "resolution") => {
+            referenced("value", "The value of one count, for a width with `counts` or `digits`.")
+        }
+        (_, "range") => referenced("value", "The range, for a width with `% of range`."),
+        (_, "full_scale") => referenced("value", "The full scale, for a width with `% FS`."),
         (_, "pooled") => reference("pooled"),
         (_, "evaluation") => described(
             "string",
@@ -669,7 +726,7 @@ fn definition(holder: Holder, shape: &FileShape) -> Value {
             required.extend(others);
         }
         Rule::All(keys) => required.extend(keys),
-        Rule::One(_) => {}
+        Rule::One(_) | Rule::Readings => {}
         Rule::Uncertainty => required.extend(estimate("mean")),
         Rule::Limits(others) => required.extend(others),
     }
@@ -680,6 +737,14 @@ fn definition(holder: Holder, shape: &FileShape) -> Value {
         Rule::One(keys) => {
             let alternatives: Vec<Value> = keys.iter().map(|&key| needs(&[key])).collect();
             definition.with("oneOf", alternatives)
+        }
+        Rule::Readings => {
+            let alternatives: Vec<Value> =
+                ["values", "file", "n"].into_iter().map(|key| needs(&[key])).collect();
+            let needed = ["s", "mean"].map(|key| (key, texts(["n"])));
+            let needed =
+                object(needed.into_iter().chain(estimate("mean").map(|key| ("n", texts([key])))));
+            definition.with("oneOf", alternatives).with("dependentRequired", needed)
         }
         Rule::Uncertainty => {
             let factor = vec![needs(&["k"]), needs(&["p"])];

@@ -53,8 +53,9 @@ pub(super) fn definitions() -> Vec<(String, Value)> {
          in SI units.",
     );
     let specification = text_of(
-        "A specification: terms of `x %` or `x ppm` (of the reading), `x % of VALUE UNIT` (of the \
-         range) and `VALUE UNIT`, joined by `+`, which add linearly; or, in an input and of a \
+        "A specification: terms of `x %` or `x ppm` (of the reading; also `x % rdg`), `x % of VALUE \
+         UNIT`, `x % of range`, `x % FS`, `x counts` and `VALUE UNIT`, joined by `+`, which add \
+         linearly; `Q[a; b L] nm, L in mm`; `greater of A and B`; or, in an input and of a \
          capability, a formula of conditions, evaluated in SI units. A capability may have `x % of \
          CONDITION` too.",
     );

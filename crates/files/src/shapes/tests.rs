@@ -218,3 +218,40 @@ fn a_half_width_with_its_sign() {
     let wrong = of(r#""distribution": "normal", "std": "± 50 um""#).unwrap_err().to_string();
     assert!(wrong.contains("standard deviation"), "{wrong}");
 }
+
+/// Keys beside a width that its specification counts in, in the unit of the input or in another.
+#[test]
+fn specifications_with_the_keys_of_their_instrument() {
+    let u = |fields: &str| {
+        let text = format!(
+            "{{'inputs': {{'x': {{'unit': 'V', 'mean': 5, 'distribution': {fields}}}}}, \
+             'equations': {{'y': 'x'}}, 'outputs': {{'y': {{'unit': 'V'}}}}}}"
+        );
+        let file = read_text("m", &text.replace('\'', "\""), Path::new(""), &[]);
+        let file = file.map_err(|faults| faults.to_string())?;
+        Ok::<f64, String>(file.task.rows[0].distributions[0].standard_uncertainty())
+    };
+    let close = |found: Result<f64, String>, expected: f64| {
+        let found = found.unwrap();
+        assert!((found / expected - 1.0).abs() < 1e-14, "{found} {expected}");
+    };
+    let root3 = 3_f64.sqrt();
+    let counts = "'rectangular', 'half_width': '±(0.02 % rdg + 2 counts)', 'resolution'";
+    close(u(&format!("{counts}: '0.1 mV'")), 1.2e-3 / root3);
+    close(u(&format!("{counts}: 1e-4")), 1.2e-3 / root3);
+    close(u("'normal', 'std': '0.01 % FS', 'full_scale': '12 V'"), 1.2e-3);
+    close(u("'normal', 'expanded': '0.01 % of range', 'k': 2, 'range': '10 V'"), 5e-4);
+    close(u("'rectangular', 'half_width': 'greater of 0.1 % and 1 mV'"), 5e-3 / root3);
+    close(u("'rectangular', 'half_width': '5×10⁻⁴ V'"), 5e-4 / root3);
+    for (fields, said) in [
+        ("'rectangular', 'half_width': '2 counts'", "the key `resolution`"),
+        ("'normal', 'std': '0.1 % FS', 'range': 10", "the key `full_scale`"),
+        ("'normal', 'std': 0.1, 'resolution': 0.1", "no width has them"),
+        ("'rectangular', 'half_width': '1 mV', 'range': 10", "no width has them"),
+        ("'normal', 'std': '2 counts', 'resolution': 0", "`resolution` is 0"),
+        ("'normal', 'std': '2 counts', 'resolution': '1 K'", "`resolution`"),
+    ] {
+        let error = u(fields).unwrap_err();
+        assert!(error.contains(said), "{fields}: {error}");
+    }
+}

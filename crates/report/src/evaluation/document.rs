@@ -31,7 +31,7 @@ pub(super) fn of(report: &EvaluationReport<'_>, shown: &Shown<'_>, terminal: boo
     if let [row] = evaluation.rows.as_slice() {
         if row.outputs.len() > MOST_UNSUMMED {
             document.section("Results");
-            let digits = evaluation.settings.digits;
+            let digits = evaluation.settings.digits_on_pages();
             document.table(table::sweep::summary(task, row, digits));
             if let Some(said) = table::sweep::explained(row.outputs.iter(), digits) {
                 document.text(said);
@@ -73,7 +73,7 @@ pub(super) fn together_of(
         }
         _ => sweep::sections(document, report, shown),
     }
-    let digits = evaluation.settings.digits;
+    let digits = evaluation.settings.digits_on_pages();
     let curves = task.curves.iter().map(|curve| &**curve);
     crate::fits::sections(document, curves, evaluation.settings.coverage, digits);
 }

@@ -40,6 +40,7 @@ pub(super) fn lines(report: &EvaluationReport<'_>, shown: &Shown<'_>) -> Vec<(St
         ("coverage probability".to_owned(), evaluation.coverage_probability.to_string()),
         ("digits".to_owned(), settings.digits.to_string()),
     ];
+    lines.extend(settings.shown_digits.map(|n| ("shown digits".to_owned(), n.to_string())));
     // a task that was made in Rust has no file
     if !provenance.model_sha256.is_empty() {
         lines.push(("model file, SHA-256".to_owned(), provenance.model_sha256.clone()));

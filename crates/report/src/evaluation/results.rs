@@ -62,7 +62,7 @@ pub(super) fn section_of(
     let found = evaluation.rows.get(row)?.outputs.get(output)?;
     let output_of = task.model.outputs.get(output)?;
     let quantity = &output_of.quantity;
-    let digits = evaluation.settings.digits;
+    let digits = evaluation.settings.digits_on_pages();
     let mut section =
         OutputSection { title: table::title_text(quantity), ..OutputSection::default() };
     section.budget.terminal = in_characters;
@@ -120,15 +120,15 @@ fn verdict(settings: &Settings, stated: &Output, found: &OutputEvaluation) -> Ve
         Some(figures) => said.push(comparison::verdict(output, found, figures, settings)),
         None => {
             let gum = found.gum.as_ref();
-            let interval =
-                gum.and_then(|gum| comparison::interval_text(output, gum, settings.digits));
+            let interval = gum
+                .and_then(|gum| comparison::interval_text(output, gum, settings.digits_on_pages()));
             said.extend(interval.map(|said| sentence(&said)));
         }
     }
     let trials = found.monte_carlo.as_ref().map(|figures| figures.trials);
     let beside = (trials, settings.coverage);
     said.extend(found.conformity.iter().flat_map(|c| comparison::conformity(output, c, beside)));
-    said.extend(comparison::capability(stated, found, settings.digits));
+    said.extend(comparison::capability(stated, found, settings.digits_on_pages()));
     said
 }
 
@@ -295,26 +295,31 @@ impl ResultStatement {
             Taken::Expanded { estimate, expanded, factor, beside } => {
                 let factor = crate::number::rounded(factor, -2);
                 let (estimate, expanded) = match beside {
-                    Some(beside) => with_capability(beside, settings.digits),
-                    None => with_uncertainty(estimate, expanded, settings.digits),
+                    Some(beside) => with_capability(beside, settings.digits_on_pages()),
+                    None => with_uncertainty(estimate, expanded, settings.digits_on_pages()),
                 };
                 Self::Expanded { estimate, expanded, factor }
             }
             Taken::Interval { figures, located: (located, error) } => {
                 let u = figures.standard_uncertainty;
                 let u = u.or_else(|| gum.map(|gum| gum.standard_uncertainty));
-                let ends = place_of_ends(figures, u, settings.digits);
+                let ends = place_of_ends(figures, u, settings.digits_on_pages());
                 let stated = figures.stated_interval();
                 let [low, high] =
                     [0, 1].map(|end| justified(stated.ends[end], ends, stated.errors[end]));
                 // without a standard deviation the interval tells how many digits there are
-                let place = figures.standard_uncertainty.and_then(|u| position(u, settings.digits));
+                let place = figures
+                    .standard_uncertainty
+                    .and_then(|u| position(u, settings.digits_on_pages()));
                 let estimate = justified(located, place.or(ends), error);
                 Self::Interval { estimate, low, high, shortest: stated.shortest }
             }
             Taken::Standard(gum) => {
-                let (estimate, uncertainty) =
-                    with_uncertainty(gum.estimate, gum.standard_uncertainty, settings.digits);
+                let (estimate, uncertainty) = with_uncertainty(
+                    gum.estimate,
+                    gum.standard_uncertainty,
+                    settings.digits_on_pages(),
+                );
                 Self::Standard { estimate, uncertainty }
             }
             Taken::Undefined => Self::Undefined,

@@ -16,7 +16,7 @@ pub(super) fn sections(document: &mut Document, report: &EvaluationReport<'_>, s
     let rows = first.unwrap_or(&evaluation.rows);
     for (output, declared) in task.model.outputs.iter().enumerate() {
         document.section(table::title_text(&declared.quantity));
-        document.table(sweep::sheet(task, rows, output, evaluation.settings.digits));
+        document.table(sweep::sheet(task, rows, output, evaluation.settings.digits_on_pages()));
         if rows.len() < evaluation.rows.len() {
             let all = table::grouped(evaluation.rows.len() as u64);
             let first = table::grouped(MOST_ROWS as u64);

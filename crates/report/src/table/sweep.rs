@@ -66,8 +66,10 @@ pub(crate) fn conformity(task: &Task, rows: &[RowEvaluation], output: usize) -> 
         ),
         _ => limits(first),
     };
-    let decided_apart =
-        explained(rows.iter().filter_map(|row| row.outputs.get(output)), task.settings.digits);
+    let decided_apart = explained(
+        rows.iter().filter_map(|row| row.outputs.get(output)),
+        task.settings.digits_on_pages(),
+    );
     Some(format!(
         "Tolerance {}, {}: {} of {} rows accepted{}. Probabilities, guard bands and risks of every row: \
          --format json.{}",

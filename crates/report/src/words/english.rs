@@ -243,6 +243,7 @@ const FILES: Sentences = &[
     ("interpolated.linear", "`{quantity}` takes values from straight lines through the {points} points of \
         `{file}` ({low} to {high}); a cubic spline differs by at most {difference} half way between them, \
         which is in no uncertainty unless an input states it"),
+    ("date-origin", "dates are numbers of days since {origin}"),
     ("fit-not-valid", "the points do not agree with `{name}`: chi-squared is {chi2} with {dof} degrees of \
         freedom, above its 95 % quantile {limit}; the form or the stated uncertainties are wrong"),
     ("fit-units-not-checked", "units are not checked in the formula of `{name}`: it computes with x in {x} \

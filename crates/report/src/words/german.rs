@@ -259,6 +259,7 @@ const FILES: Sentences = &[
     ("interpolated.linear", "`{quantity}` nimmt Werte von Geraden durch die {points} Punkte von `{file}` \
         ({low} bis {high}); kubische Splines weichen auf halbem Weg zwischen ihnen um höchstens {difference} \
         ab, was in keiner Unsicherheit steckt, wenn keine Eingangsgröße es angibt"),
+    ("date-origin", "Datumsangaben sind Anzahlen von Tagen seit dem {origin}"),
     ("fit-not-valid", "die Punkte passen nicht zu `{name}`: Chi-Quadrat ist {chi2} mit {dof} \
         Freiheitsgraden, über seinem 95-%-Quantil {limit}; die Form oder die angegebenen Unsicherheiten sind \
         falsch"),

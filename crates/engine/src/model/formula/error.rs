@@ -274,6 +274,17 @@ pub enum FormulaError {
         /// What the table's column is, in words.
         expected: String,
     },
+    /// A share that is converted to the unit of an output, which converts it once more.
+    ConvertedTwice {
+        /// The part of the formula that converts.
+        formula: String,
+        /// The output whose unit converts as well.
+        output: String,
+        /// Its unit.
+        unit: String,
+        /// Where.
+        span: Range<usize>,
+    },
     /// An argument in a unit, where no unit is said of what it is looked up among.
     UnstatedUnit {
         /// What the two readings are, as a sentence without a capital.
@@ -367,6 +378,7 @@ impl FormulaError {
             | Self::BadUnit { span, .. }
             | Self::TwoReadings { span, .. }
             | Self::UnstatedUnit { span, .. }
+            | Self::ConvertedTwice { span, .. }
             | Self::NumberWithUnit { span, .. }
             | Self::Scale { span, .. }
             | Self::TableColumns { span }
@@ -439,6 +451,7 @@ impl FormulaError {
             Self::MixedDimensions { .. }
                 | Self::ArgumentNotPlain { .. }
                 | Self::UnstatedUnit { .. }
+                | Self::ConvertedTwice { .. }
                 | Self::NotATemperature { .. }
                 | Self::ExponentNotPlain { .. }
                 | Self::ExponentNotConstant { .. }

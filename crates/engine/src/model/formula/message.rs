@@ -151,6 +151,12 @@ impl fmt::Display for FormulaError {
             Self::Curve { reason, .. }
             | Self::Complex { reason, .. }
             | Self::UnstatedUnit { reason, .. } => f.write_str(reason),
+            Self::ConvertedTwice { formula, output, unit, .. } => write!(
+                f,
+                "`{formula}` converts to {unit}, and so does the output `{output}` in {unit} once more: \
+                 formulas compute shares as plain numbers; leave the factor out, or give the output \
+                 without a unit; a factor that is no conversion is an input of its own"
+            ),
             Self::UnknownFunction { name, nearest, .. } => {
                 write!(f, "there is no function `{}`", short(name))?;
                 if nearest.is_empty() {

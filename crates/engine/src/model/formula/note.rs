@@ -33,12 +33,14 @@ pub struct FormulaNote {
     pub fact: Fact,
     /// Where in the formula, a half-open range of bytes.
     pub span: Range<usize>,
+    /// Whether no meaning of the formula gives the result: a share that is converted to its unit twice.
+    pub is_error: bool,
 }
 
 impl FormulaNote {
     /// What was found of a node.
     pub(super) fn at(node: &Node, fact: Fact) -> Self {
-        Self { fact, span: node.span.clone() }
+        Self { fact, span: node.span.clone(), is_error: false }
     }
 
     /// A short name of what it is about.

@@ -29,7 +29,7 @@ pub(super) fn angular(text: &str, tree: &Tree, scope: &Scope) -> Option<FormulaN
     let index = terms.map(|term| term.index).find(|index| typed.is_angular(*index))?;
     let span = tree.span(index);
     let formula = walk.quoted(&span);
-    Some(FormulaNote { fact: fact!("radians-as-periods", formula), span })
+    Some(FormulaNote { fact: fact!("radians-as-periods", formula), span, is_error: false })
 }
 
 /// A torque in N m times what is in 1/min or Hz. `unit_of` gives the units of names that are given in one.

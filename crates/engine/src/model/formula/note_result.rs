@@ -100,7 +100,8 @@ impl Walk<'_, '_> {
             self.converts_from(term.index, unit)
                 || unit.dimension().is_none() && self.converts_to(*term, unit, term.index == whole)
         };
-        let index = terms.into_iter().find(converts)?.index;
+        let term = terms.into_iter().find(converts)?;
+        let index = term.index;
         let node = self.tree.nodes.get(index)?;
         // without a unit, the other terms of a sum would be wrong, and so would what is from another unit
         let may_be_plain = index == whole && !self.converts_from(index, unit);
@@ -113,7 +114,12 @@ impl Walk<'_, '_> {
         };
         let (formula, what) = (self.quoted(&node.span), what.clone());
         let fact = fact!("result-converted-twice", formula, unit, what, computed, or_plain);
-        Some(FormulaNote::at(node, fact))
+        let is_by_size = || {
+            let is_inverse = |factor: f64| is_same_factor(factor * unit.factor(), 1.0);
+            is_inverse(self.scaled(index).factor) || self.factors(node).into_iter().any(is_inverse)
+        };
+        let is_error = unit.is_relative() && (self.converts_from(index, unit) || is_by_size());
+        Some(FormulaNote { is_error, ..FormulaNote::at(node, fact) })
     }
 
     /// Whether a product converts from the unit of its name to another one: `3600*a` of degrees that is

@@ -144,7 +144,7 @@ pub(super) fn write(
             top: at + 1,
             places,
             sums,
-            position: position(gum.standard_uncertainty, evaluation.settings.digits),
+            position: position(gum.standard_uncertainty, evaluation.settings.digits_on_pages()),
         };
         leaf.headers(at, HEADERS)?;
         let model = live.model.get(number);
@@ -234,7 +234,7 @@ impl Block<'_> {
         for (&at, line) in self.places.iter().zip(&self.lines) {
             let Some(variable) = report.task.variables.get(line.variable) else { continue };
             let Some(cells) = self.cells.variables.get(line.variable) else { continue };
-            let own = position(line.standard_uncertainty, self.settings.digits);
+            let own = position(line.standard_uncertainty, self.settings.digits_on_pages());
             leaf.text(at, NAME, &plain(&variable.name))?;
             let now = Cached::Number(line.estimate);
             leaf.formula((at, ESTIMATE), &cells[0], &now, own, Look::Plain)?;
@@ -259,7 +259,7 @@ impl Block<'_> {
             }
             let contribution = format!("ABS({})*{}", here(at, SENSITIVITY), here(at, UNCERTAINTY));
             let now = Cached::Number(line.contribution);
-            let digits = position(line.contribution, self.settings.digits);
+            let digits = position(line.contribution, self.settings.digits_on_pages());
             leaf.formula((at, CONTRIBUTION), &contribution, &now, digits, Look::Plain)?;
             let variance = format!("{}^2", here(at, CONTRIBUTION));
             let now = line.contribution.powi(2);
@@ -284,7 +284,7 @@ impl Block<'_> {
             leaf.text(*at, NAME, &plain(&quantity.name))?;
             leaf.text(*at, UNIT, &plain(quantity.unit.text()))?;
             leaf.text(*at, DISTRIBUTION, COMPOSED)?;
-            let own = position(figures.standard_uncertainty, self.settings.digits);
+            let own = position(figures.standard_uncertainty, self.settings.digits_on_pages());
             let correlated = self.links.iter().any(|link| {
                 let [a, b] = link.variables;
                 of.contains(&a) && of.contains(&b)
@@ -434,7 +434,7 @@ impl Block<'_> {
         };
         let expanded = guarded(format!("{factor}*{}", here_is(1)));
         let known = gum.expanded_uncertainty();
-        let digits = known.and_then(|known| position(known, self.settings.digits));
+        let digits = known.and_then(|known| position(known, self.settings.digits_on_pages()));
         leaf.formula((at(4), 1), &expanded, &number(known), digits, look)?;
         for (figure, sign, end) in [(5, '-', 0), (6, '+', 1)] {
             let formula = guarded(format!("{}{sign}{}", here_is(0), here_is(4)));
@@ -526,7 +526,8 @@ impl Block<'_> {
             interval.map(|ends| ends[0]),
             interval.map(|ends| ends[1]),
         ];
-        let expanded = gum.expanded_uncertainty().and_then(|u| position(u, self.settings.digits));
+        let expanded =
+            gum.expanded_uncertainty().and_then(|u| position(u, self.settings.digits_on_pages()));
         let own = self.position;
         let shown = [own, own, Some(-2), Some(-2), expanded, own, own];
         for (at, (value, shown)) in (first..).zip(values.into_iter().zip(shown)) {

@@ -108,7 +108,7 @@ pub(super) fn write(leaf: &mut Leaf, report: &EvaluationReport<'_>) -> Result<Pl
         at += 1;
         for (variable, distribution) in task.variables.iter().zip(row.distributions.iter()) {
             let u = distribution.standard_uncertainty();
-            let digits = position(u, evaluation.settings.digits);
+            let digits = position(u, evaluation.settings.digits_on_pages());
             leaf.text(at, 0, &plain(&variable.name))?;
             leaf.number((at, ESTIMATE), distribution.mean(), None, Look::Input)?;
             leaf.number((at, UNCERTAINTY), u, None, Look::Input)?;

@@ -92,7 +92,7 @@ fn write(report: &EvaluationReport<'_>, shown: &Shown<'_>) -> Result<Vec<u8>, Xl
     let settings = &report.evaluation.settings;
     let mut functions = Document::default();
     let curves = task.curves.iter().map(|curve| &**curve);
-    fits::sections(&mut functions, curves, settings.coverage, settings.digits);
+    fits::sections(&mut functions, curves, settings.coverage, settings.digits_on_pages());
     worksheet(&mut book, "Calibration functions", &functions, None)?;
     if let [row] = report.evaluation.rows.as_slice() {
         let mut found = Document::default();

@@ -137,9 +137,9 @@ pub(super) fn write(
                 at += 1;
             }
             let cells = totals.get(output).and_then(|rows| rows.get(number)?.as_ref());
-            figures(leaf, line, (declared, found), evaluation.settings.digits, cells)?;
+            figures(leaf, line, (declared, found), evaluation.settings.digits_on_pages(), cells)?;
             if let Some(beside) = found.capability.as_deref() {
-                let digits = evaluation.settings.digits;
+                let digits = evaluation.settings.digits_on_pages();
                 // what is below the capability must not be stated (ILAC-P14)
                 let may_be_stated = beside.raised || !beside.below;
                 let expanded = beside.rounded(digits).filter(|_| may_be_stated);
