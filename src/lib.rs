@@ -289,7 +289,7 @@ pub mod file {
         CarriedModel, CaseFile, CertificateFile, CertificateListing, CertifiedModel, CostFile,
         EffectListing, FileReader, ListedEffect, ListedParameter, ListedPart, ListedQuantity,
         ModelFile, ModelOrResult, NotCopied, OpenedRow, Override, Overrides, RecipeCondition,
-        RecipeFile, RecipeRow, Recording, ResultFile, SavedOutput, SharedFileError,
+        ReadingsFile, RecipeFile, RecipeRow, Recording, ResultFile, SavedOutput, SharedFileError,
         SharedFileHeader, SharedFileKind, SharedModelError, SharedRun, TextKind, carried_models,
         catalogue, certificate_listing, certificate_listing_text, check, check_text, difference,
         named_in, read, read_case, read_certificate, read_costs, read_costs_text, read_drift,
