@@ -355,8 +355,15 @@ impl<'a> ReadingColumns<'a> {
         if Unit::convert(1.0, own, unit).is_ok() {
             return Some(Conversion { own: Some(own), unit });
         }
+        let (of, hint) = match self.new.model {
+            Some(model) => (
+                format!(" in `{model}`"),
+                format!("; a column of another model file is headed `MODEL:{}`", column.text),
+            ),
+            None => (String::new(), String::new()),
+        };
         let reason = format!(
-            "the column `{}` is in `{}`, which cannot be converted to `{}`, the unit of `{}`",
+            "the column `{}` is in `{}`, which cannot be converted to `{}`, the unit of `{}`{of}{hint}",
             column.heading, other.heading, other.declared, column.name
         );
         self.log.report_at(self.place_of(column), DiagnosticKind::Table { reason });

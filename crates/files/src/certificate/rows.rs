@@ -279,7 +279,9 @@ impl<'a> CertificateRows<'a> {
         };
         for diagnostic in diagnostics.0 {
             let here = &member.value.span;
-            if let Some(message) = is_no_object(&diagnostic.source.text) {
+            // a table that the model names is no JSON anyway
+            let is_model = diagnostic.source.name == self.files_in.1.shown(name);
+            if let Some(message) = is_no_object(&diagnostic.source.text).filter(|_| is_model) {
                 let message = format!("`{name}`: {message}");
                 self.log.report(here, DiagnosticKind::Unreadable { message });
                 return None;
