@@ -119,7 +119,16 @@ fn parts_of_a_run_carry_the_readings() {
     let whole = place.done(&run);
     fs::create_dir(place.path().join("parts")).unwrap();
     for (blocks, partial) in [("1/2", "parts/1"), ("2/2", "parts/2")] {
-        place.done(&["run", "m.json", "--readings", "today.csv", "--blocks", blocks, "--partial", partial]);
+        place.done(&[
+            "run",
+            "m.json",
+            "--readings",
+            "today.csv",
+            "--blocks",
+            blocks,
+            "--partial",
+            partial,
+        ]);
     }
     fs::remove_file(place.path().join("today.csv")).unwrap();
     loop {
@@ -132,7 +141,15 @@ fn parts_of_a_run_carry_the_readings() {
         fs::write(place.path().join("today.csv"), TODAY).unwrap();
         for (blocks, partial) in [("1/2", "parts/1"), ("2/2", "parts/2")] {
             place.done(&[
-                "run", "m.json", "--readings", "today.csv", "--blocks", blocks, "--partial", partial, "--pass",
+                "run",
+                "m.json",
+                "--readings",
+                "today.csv",
+                "--blocks",
+                blocks,
+                "--partial",
+                partial,
+                "--pass",
                 "parts/next-pass",
             ]);
         }
@@ -146,7 +163,8 @@ fn units_are_converted_with_their_zero() {
         "equations": {"y": "T"}, "outputs": {"y": {"unit": "K"}}, "monte_carlo": {"trials": 0}}"#;
     let place = Place::of(&[("m.json", model), ("t.csv", "T in degC\n20.1\n20.3\n")]);
     let gum = &place.answer(&["run", "m.json", "--readings", "t.csv"])["outputs"]["y"]["gum"];
-    let (estimate, u) = (gum["estimate"].as_f64().unwrap(), gum["standard_uncertainty"].as_f64().unwrap());
+    let (estimate, u) =
+        (gum["estimate"].as_f64().unwrap(), gum["standard_uncertainty"].as_f64().unwrap());
     // rounding of the readings in kelvins
     assert!((estimate - 293.35).abs() < 1e-12 * 293.35, "{estimate}");
     assert!((u - 0.1).abs() < 1e-12, "{u}");
@@ -202,7 +220,8 @@ fn headings_have_units_groups_and_no_components() {
         "column": "x", "groups": "day"}}, "equations": {"y": "2*x"}, "outputs": {"y": {"unit": "mm"}},
         "monte_carlo": {"trials": 1000}}"#;
     let old = "x,day\n1.0,1\n1.1,1\n1.3,2\n1.5,2\n";
-    let place = Place::of(&[("m.json", &model(a, b, c)), ("nested.json", nested), ("old.csv", old)]);
+    let place =
+        Place::of(&[("m.json", &model(a, b, c)), ("nested.json", nested), ("old.csv", old)]);
     assert_eq!(place.done(&["readings", "--template", "m.json"]), "V [V],I [A],phi [rad]\n");
     assert_eq!(place.done(&["readings", "--template", "nested.json"]), "day,x [mm]\n");
     // a nested design is read again
@@ -219,9 +238,7 @@ fn headings_have_units_groups_and_no_components() {
 #[test]
 fn certificates_of_the_day() {
     let [a, b, c] = YESTERDAY;
-    let rows = |first: &str| {
-        json!({"rows": [{"model": first, "output": "R"}, {"model": "other.json", "output": "R"}]})
-    };
+    let rows = |first: &str| json!({"rows": [{"model": first, "output": "R"}, {"model": "other.json", "output": "R"}]});
     let place = Place::of(&[
         ("m.json", &model(a, b, c)),
         // another text, so that its inputs are not those of the first model
@@ -259,7 +276,10 @@ fn certificates_of_the_day() {
 #[test]
 fn one_certificate_for_each_file() {
     let certificate = json!({"rows": [{"model": "grid.json", "output": "E"}], "conditions": "p"});
-    let place = Place::of(&[("grid.json", &gauge("1, 2", PRESSURES)), ("c.json", &certificate.to_string())]);
+    let place = Place::of(&[
+        ("grid.json", &gauge("1, 2", PRESSURES)),
+        ("c.json", &certificate.to_string()),
+    ]);
     let folder = place.path().join("devices");
     fs::create_dir(&folder).unwrap();
     for (name, content) in [
@@ -270,7 +290,16 @@ fn one_certificate_for_each_file() {
     ] {
         fs::write(folder.join(name), content).unwrap();
     }
-    let each = ["certificate", "c.json", "--each", "devices", "--output-folder", "out", "--format", "json"];
+    let each = [
+        "certificate",
+        "c.json",
+        "--each",
+        "devices",
+        "--output-folder",
+        "out",
+        "--format",
+        "json",
+    ];
     let (code, answer, said) = place.ended(&each);
     assert_eq!((code, answer.as_str()), (2, ""));
     assert!(said.contains("devices/wrong.csv:1:1: "), "{said}");
@@ -283,12 +312,20 @@ fn one_certificate_for_each_file() {
     assert_eq!(made, ["a.json", "b.json"]);
     for device in ["a", "b"] {
         let readings = format!("devices/{device}.csv");
-        let alone =
-            place.done(&["certificate", "c.json", "--readings", &readings, "--format", "json", "--quiet"]);
+        let alone = place.done(&[
+            "certificate",
+            "c.json",
+            "--readings",
+            &readings,
+            "--format",
+            "json",
+            "--quiet",
+        ]);
         let written = fs::read_to_string(place.path().join(format!("out/{device}.json"))).unwrap();
         assert_eq!(written, alone, "{device}");
     }
-    let (code, _, said) = place.ended(&["certificate", "c.json", "--each", "out", "--output-folder", "out"]);
+    let (code, _, said) =
+        place.ended(&["certificate", "c.json", "--each", "out", "--output-folder", "out"]);
     assert_eq!(code, 2);
     assert!(said.contains("has no files of readings"), "{said}");
 }

@@ -564,7 +564,8 @@ impl<'a> InputReader<'a, '_> {
         if is_type_a {
             self.inputs.readings.inputs.push(name.clone());
             self.inputs.readings.columns.extend(readings::columns_of(object));
-            if let Some(Json::Text(groups)) = object.get("groups").map(|member| &member.value.value) {
+            if let Some(Json::Text(groups)) = object.get("groups").map(|member| &member.value.value)
+            {
                 self.inputs.readings.groups.push(groups.clone());
             }
         }

@@ -6,9 +6,9 @@ use std::sync::Arc;
 
 use super::context::Context;
 use super::model_reader::{ModelOptions, read_with};
+use super::model_readings::ModelReadings;
 use super::open::open;
 use super::overrides::Override;
-use super::model_readings::ModelReadings;
 use gumption_engine::task::{Evidence, Task, Warning};
 use gumption_text::{Diagnostic, DiagnosticKind, Diagnostics, SourceText};
 

@@ -96,8 +96,10 @@ impl<'a> ReadingColumns<'a> {
             let Some(column) = column(log, table, new.model, place, heading) else { continue };
             let mut all = of_conditions.iter().chain(&columns);
             if let Some(first) = all.find(|other: &&ReadingColumn| other.name == column.name) {
-                let reason =
-                    format!("the columns `{}` and `{heading}` both are `{}`", first.heading, column.name);
+                let reason = format!(
+                    "the columns `{}` and `{heading}` both are `{}`",
+                    first.heading, column.name
+                );
                 log.report_at(table.header(), DiagnosticKind::Table { reason });
                 return None;
             }
@@ -129,8 +131,11 @@ impl<'a> ReadingColumns<'a> {
     fn points_of(&self, conditions: &Conditions) -> Option<Vec<Point>> {
         let lines = 0..self.table.rows();
         if self.conditions.is_empty() {
-            let point =
-                Point { rows: (0..self.rows).collect(), lines: lines.collect(), name: String::new() };
+            let point = Point {
+                rows: (0..self.rows).collect(),
+                lines: lines.collect(),
+                name: String::new(),
+            };
             return Some(vec![point]);
         }
         let quantities = &conditions.quantities;
@@ -307,7 +312,12 @@ impl<'a> ReadingColumns<'a> {
     }
 
     /// The values of a column at a point. Cells below the last one may be empty.
-    fn values(&self, column: &ReadingColumn, point: &Point, to: &Conversion<'_>) -> Option<Vec<f64>> {
+    fn values(
+        &self,
+        column: &ReadingColumn,
+        point: &Point,
+        to: &Conversion<'_>,
+    ) -> Option<Vec<f64>> {
         let is_filled = |line: &usize| !self.table.text(*line, column.place).is_empty();
         let filled = point.lines.iter().rposition(is_filled).map_or(0, |at| at + 1);
         let numbers = point.lines.iter().take(filled).map(|line| self.number(*line, column, to));
@@ -498,4 +508,112 @@ pub(super) fn why_not(
         names.push("...".to_owned());
     }
     format!("there is no input `{name}`; inputs with readings are {}", names.join(", "))
+}
+
+#[cfg(test)]
+mod tests {
+    use std::path::Path;
+
+    use super::*;
+    use crate::{FileReader, ModelFile, Override, ReadingsFile};
+    use gumption_engine::distribution::Distribution;
+
+    fn read(input: &str, conditions: &str, table: &str, set: &[&str]) -> Result<ModelFile, String> {
+        let model = format!(
+            r#"{{"inputs": {{"x": {{"unit": "V", {input}}}}}, "conditions": {{{conditions}}},
+            "equations": {{"y": "x"}}, "outputs": {{"y": {{"unit": "V"}}}}}}"#
+        );
+        let set: Vec<Override> = set.iter().filter_map(|text| Override::parse(text)).collect();
+        let file =
+            ReadingsFile::of("today.csv", table.into()).map_err(|error| error.to_string())?;
+        let reader = FileReader::default().with_readings(Some(&file));
+        reader.model_text("m.json", &model, Path::new(""), &set).map_err(|error| error.to_string())
+    }
+
+    const READINGS: &str = r#""distribution": "readings", "values": [1, 2]"#;
+    const GRID: &str = r#""f": {"unit": "Hz", "values": [1, 2]}, "g": {"values": [1, 2]}"#;
+
+    fn values(file: &ModelFile) -> Vec<Vec<f64>> {
+        let of_row = |distribution: &Distribution| match distribution {
+            Distribution::Readings(readings) => readings.values().to_vec(),
+            other => panic!("{other:?}"),
+        };
+        file.task.rows.iter().map(|row| of_row(&row.distributions[0])).collect()
+    }
+
+    /// Readings at a value of one of two conditions are one quantity in all rows with that value, those
+    /// at a value of each are one in each row, and without conditions there is one for all rows.
+    #[test]
+    fn rows_share_what_was_read_once() {
+        let of_f = "f [Hz],x\n1,10\n1,11\n2,20\n2,22\n";
+        let file = read(READINGS, GRID, of_f, &[]).unwrap();
+        assert_eq!(file.task.variables[0].sharing, Sharing::Condition(0));
+        assert_eq!(values(&file), [[10.0, 11.0], [10.0, 11.0], [20.0, 22.0], [20.0, 22.0]]);
+        let of_both = "g,f [kHz],x [kV]\n1,0.001,1\n1,0.001,2\n2,0.001,3\n2,0.001,5\n1,0.002,7\n1,0.002,9\n\
+                       2,0.002,4\n2,0.002,8\n";
+        let file = read(READINGS, GRID, of_both, &[]).unwrap();
+        assert_eq!(file.task.variables[0].sharing, Sharing::Row);
+        assert_eq!(values(&file), [[1e3, 2e3], [3e3, 5e3], [7e3, 9e3], [4e3, 8e3]]);
+        let shared = read(READINGS, GRID, "x\n3\n4\n", &[]).unwrap();
+        assert_eq!(shared.task.variables[0].sharing, Sharing::All);
+        // also in place of formulas that give each row its own
+        let of_rows = r#""distribution": "readings", "values": ["g*[V]", "2*g*[V]"]"#;
+        let own = read(of_rows, GRID, "f [Hz],x\n1,1\n1,2\n2,1\n2,3\n", &[]).unwrap();
+        assert_eq!(own.task.variables[0].sharing, Sharing::Condition(0));
+        let shared = read(of_rows, GRID, "x\n3\n4\n", &[]).unwrap();
+        assert_eq!(shared.task.variables[0].sharing, Sharing::All);
+        // what the model says of the rows stays
+        let per = format!("{READINGS}, \"per\": \"row\"");
+        let stated = read(&per, GRID, of_f, &[]).unwrap();
+        assert_eq!(stated.task.variables[0].sharing, Sharing::Row);
+    }
+
+    #[test]
+    fn points_that_are_not_told_apart_are_refused() {
+        let three = format!(r#"{GRID}, "h": {{"values": [1, 2]}}"#);
+        let table = "f [Hz],g,x\n1,1,1\n1,1,2\n1,2,1\n1,2,2\n2,1,1\n2,1,2\n2,2,1\n2,2,2\n";
+        let said = read(READINGS, &three, table, &[]).unwrap_err();
+        assert!(
+            said.contains("2 rows of the model's conditions have `f` = 1 Hz and `g` = 1"),
+            "{said}"
+        );
+        assert!(said.contains("add the column `h`"), "{said}");
+    }
+
+    /// What the model says of an input besides its readings stays.
+    #[test]
+    fn resolution_and_pooled_scatter_stay() {
+        let pooled =
+            r#""distribution": "readings", "values": [1, 2], "pooled": {"std": 0.1, "dof": 9}"#;
+        let file = read(pooled, r#""f": {"values": [1]}"#, "x\n3\n5\n4\n4\n", &[]).unwrap();
+        let of = &file.task.rows[0].distributions[0];
+        // the scatter of the model over the root of the number of today's readings
+        let found = [of.mean(), of.standard_uncertainty(), of.dof()];
+        assert_eq!(found, [4.0, 0.05, 9.0]);
+        let resolution = r#""distribution": "readings", "values": [1, 2], "resolution": 0.6"#;
+        let file = read(resolution, r#""f": {"values": [1]}"#, "x\n3\n3\n", &[]).unwrap();
+        let of = &file.task.rows[0].distributions[0];
+        assert!((of.standard_uncertainty() - 0.3 / 3f64.sqrt()).abs() < 1e-15);
+    }
+
+    /// An estimate of the command line moves the readings, as it does those of the model.
+    #[test]
+    fn estimates_and_readings_are_replaced_together() {
+        let file = read(READINGS, r#""f": {"values": [1]}"#, "x\n3\n5\n", &["x=7"]).unwrap();
+        let of = &file.task.rows[0].distributions[0];
+        assert_eq!([of.mean(), of.standard_uncertainty()], [7.0, 1.0]);
+    }
+
+    #[test]
+    fn notes_name_what_was_replaced_and_what_was_kept() {
+        let model = r#"{"inputs": {"x": {"distribution": "readings", "values": [1, 2]},
+            "z": {"distribution": "readings", "values": [1, 2]}},
+            "equations": {"y": "x + z"}, "outputs": {"y": {}}}"#;
+        let today = ReadingsFile::of("today.csv", b"x\n3\n4\n".to_vec()).unwrap();
+        let reader = FileReader::default().with_readings(Some(&today));
+        let file = reader.model_text("m.json", model, Path::new(""), &[]).unwrap();
+        let notes: Vec<_> = file.warnings.iter().map(|note| note.fact.clone()).collect();
+        assert!(notes.contains(&fact!("readings-replaced", file = "today.csv", names = "`x`")));
+        assert!(notes.contains(&fact!("readings-kept", file = "today.csv", names = "`z`")));
+    }
 }

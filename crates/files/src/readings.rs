@@ -66,7 +66,9 @@ pub(super) fn columns_of(object: &Object<'_>) -> Vec<String> {
         Json::Text(text) => object.log.formula(text).ok(),
         _ => None,
     });
-    texts.flat_map(|formula| formula.names().map(|(name, _)| name.to_owned()).collect::<Vec<_>>()).collect()
+    texts
+        .flat_map(|formula| formula.names().map(|(name, _)| name.to_owned()).collect::<Vec<_>>())
+        .collect()
 }
 
 /// Whether a reading is a text that is no value.

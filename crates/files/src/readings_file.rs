@@ -37,7 +37,8 @@ impl ReadingsFile {
     pub fn open(path: &Path) -> Result<Self, Diagnostics> {
         let shown = path.display().to_string();
         // answers name the file and not the folders of this machine
-        let name = path.file_name().map_or(shown.clone(), |name| name.to_string_lossy().into_owned());
+        let name =
+            path.file_name().map_or(shown.clone(), |name| name.to_string_lossy().into_owned());
         match bytes::of_file(path, bytes::MOST) {
             Ok(content) => Self::shown_as(&shown, name, content),
             Err(message) => Err(refused(&shown, DiagnosticKind::Unreadable { message })),

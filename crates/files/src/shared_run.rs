@@ -159,9 +159,11 @@ impl SharedRun {
             model_path: path.map(|path| path.to_string_lossy().into_owned()),
             text: file.source.text.clone(),
             files: digests(&file.files),
-            readings: file.readings.file.as_ref().and_then(|name| {
-                file.files.iter().find(|(known, _)| known == name).cloned()
-            }),
+            readings: file
+                .readings
+                .file
+                .as_ref()
+                .and_then(|name| file.files.iter().find(|(known, _)| known == name).cloned()),
             set: set.iter().map(|set| set.text.clone()).collect(),
             settings: *settings,
             memory,
@@ -490,10 +492,8 @@ mod tests {
     /// The parts carry the readings that replaced those of the model.
     #[test]
     fn readings_come_back() {
-        let text = MODEL.replace(
-            r#""normal", "mean": 1, "std": 0.1"#,
-            r#""readings", "values": [1, 2, 4]"#,
-        );
+        let text = MODEL
+            .replace(r#""normal", "mean": 1, "std": 0.1"#, r#""readings", "values": [1, 2, 4]"#);
         let today = ReadingsFile::of("today.csv", b"x\n3\n5\n7\n".to_vec()).unwrap();
         let reader = FileReader::default().with_readings(Some(&today));
         let file = reader.model_text("m.json", &text, Path::new(""), &[]).unwrap();

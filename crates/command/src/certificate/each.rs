@@ -86,7 +86,10 @@ impl Certificate {
                 Ok(other) => return Ok(other),
                 Err(failure) => {
                     is_of_system |= matches!(failure, Failure::System(_));
-                    say(&format!("gumption: no certificate of `{}`:\n{failure}", plain(&shown.to_string())));
+                    say(&format!(
+                        "gumption: no certificate of `{}`:\n{failure}",
+                        plain(&shown.to_string())
+                    ));
                     failed.push(format!("`{shown}`"));
                 }
             }
