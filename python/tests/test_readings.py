@@ -64,15 +64,19 @@ def test_a_file_has_the_bytes_of_the_command_line(program: str, tmp_path: Path) 
     assert stated["rows"] == json.loads(said.stdout)["rows"]
 
 
-def test_frames_of_pandas_and_polars() -> None:
+def test_frames_of_pandas() -> None:
     edited = figures(gu.from_dict(model(VOLTAGES, CURRENTS)).run())
     own = gu.from_dict(YESTERDAY)
     pandas = pytest.importorskip("pandas")
     padded = [*CURRENTS, None, None]
     assert figures(own.run(readings=pandas.DataFrame({"V": VOLTAGES, "I": padded}))) == edited
-    series = pandas.DataFrame({"V": pandas.Series([5.0, 6.0]), "I": [1.0, 2.0]})
-    series["V"].attrs["unit"] = "V"
-    assert own.run(readings=series).to_json()
+
+
+@pytest.mark.slow
+def test_frames_of_polars() -> None:
+    edited = figures(gu.from_dict(model(VOLTAGES, CURRENTS)).run())
+    own = gu.from_dict(YESTERDAY)
+    padded = [*CURRENTS, None, None]
     polars = pytest.importorskip("polars")
     assert figures(own.run(readings=polars.DataFrame({"V": VOLTAGES, "I": padded}))) == edited
 

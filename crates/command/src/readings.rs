@@ -40,9 +40,9 @@ impl Readings {
         let file = opened(files, &self.template, text, |path| files.model(path, &[]))??;
         let asked = ("--output", output::to_file(self.output.as_deref()));
         let read = options::with_named(&self.template, file.files.iter().map(|(name, _)| name));
-        let [place] = output::open([asked], &read)?;
-        let place = place.map_or(AnswerPlace::StandardOutput, AnswerPlace::File);
-        place.write(&self.table(&file)?)?;
+        let [output] = output::open([asked], &read)?;
+        let output = output.map_or(AnswerPlace::StandardOutput, AnswerPlace::File);
+        output.write(&self.table(&file)?)?;
         Ok(Exit::Done)
     }
 

@@ -29,6 +29,9 @@ const MOST_NAMES: usize = 12;
 /// The field of readings and samples, which is a list.
 const LIST: &str = "values";
 
+/// The shapes that have it.
+const LISTED: [&str; 3] = ["readings", "samples", "quantiles"];
+
 /// Replacements in the order of the command line.
 pub type Overrides = Vec<Override>;
 
@@ -264,7 +267,10 @@ fn replace_list(
         true => component_of(fields, |fields| has_text(fields, "distribution", "readings")),
     };
     let input = &replaced.input;
-    let fields = fields.filter(|fields| has(fields, LIST) || has(fields, "file"));
+    let is_listed = |fields: &&mut Vec<Member>| {
+        LISTED.iter().any(|shape| has_text(fields, "distribution", shape))
+    };
+    let fields = fields.filter(is_listed);
     let Some(fields) = fields else {
         return Err(format!("`{input}` has no values; `--set {input}=...` changes its estimate"));
     };
@@ -301,10 +307,10 @@ fn listed_values(text: &str) -> Result<Vec<Json>, String> {
         Some((_, unit)) if others.iter().all(is_number) => Some(unit),
         Some(_) if others.iter().all(of_unit) => None,
         _ => {
-            let found = cells.iter().find(|cell| !is_number(cell) && !of_unit(cell));
-            return Err(match found {
-                Some(found) => format!(
-                    "`{found}` is no number; values stand between commas: `5.01, 5.02, 5.03` or \
+            let wrong = cells.iter().find(|cell| !is_number(cell) && !of_unit(cell));
+            return Err(match wrong {
+                Some(wrong) => format!(
+                    "`{wrong}` is no number; values stand between commas: `5.01, 5.02, 5.03` or \
                      `5.01, 5.02, 5.03 V`"
                 ),
                 None => "some values have a unit and others none; write it behind the last one, or behind \

@@ -3,6 +3,7 @@
 //! Columns with the names of conditions say to which point a line belongs.
 
 use std::cell::{Cell, RefCell};
+use std::collections::HashMap;
 
 use super::conditions::{Conditions, is_same};
 use super::input_set::InputSet;
@@ -25,7 +26,7 @@ const MOST_NAMES: usize = 12;
 /// A column, by its heading.
 #[derive(Debug)]
 struct ReadingColumn {
-    place: usize,
+    index: usize,
     heading: String,
     /// The heading without the name of a model file.
     text: String,
@@ -92,8 +93,8 @@ impl<'a> ReadingColumns<'a> {
         let table = &new.file.table;
         let mut of_conditions = Vec::new();
         let mut columns: Vec<ReadingColumn> = Vec::new();
-        for (place, heading) in table.columns().iter().enumerate() {
-            let Some(column) = column(log, table, new.model, place, heading) else { continue };
+        for (index, heading) in table.columns().iter().enumerate() {
+            let Some(column) = column(log, table, new.model, index, heading) else { continue };
             let mut all = of_conditions.iter().chain(&columns);
             if let Some(first) = all.find(|other: &&ReadingColumn| other.name == column.name) {
                 let reason = format!(
@@ -145,18 +146,30 @@ impl<'a> ReadingColumns<'a> {
             .filter_map(|column| quantities.iter().position(|of| of.name == column.name))
             .collect();
         let mut points: Vec<Point> = Vec::new();
+        let mut known: HashMap<Vec<u64>, usize> = HashMap::new();
         for (row, values) in conditions.rows.iter().enumerate() {
-            let same = |point: &&mut Point| {
+            let exact: Vec<u64> = places.iter().map(|at| values[*at].to_bits()).collect();
+            let same = |point: &Point| {
                 let first = point.rows.first().and_then(|first| conditions.rows.get(*first));
                 first.is_some_and(|first| places.iter().all(|at| is_same(first[*at], values[*at])))
             };
-            match points.iter_mut().find(same) {
-                Some(point) => point.rows.push(row),
-                None => {
-                    let name = named(&places, quantities, values);
-                    points.push(Point { rows: vec![row], lines: Vec::new(), name });
-                }
+            let own = known.get(&exact).copied().or_else(|| points.iter().position(same));
+            let own = own.unwrap_or(points.len());
+            known.insert(exact, own);
+            if let Some(point) = points.get_mut(own) {
+                point.rows.push(row);
+                continue;
             }
+            let name = named(&places, quantities, values);
+            if points.len() == self.table.rows() {
+                let reason = format!(
+                    "the model's conditions have more points than there are lines: there are no readings \
+                     at {name}"
+                );
+                self.log.report_at(self.table.header(), DiagnosticKind::Table { reason });
+                return None;
+            }
+            points.push(Point { rows: vec![row], lines: Vec::new(), name });
         }
         let conversions: Option<Vec<Conversion<'_>>> = self
             .conditions
@@ -191,18 +204,18 @@ impl<'a> ReadingColumns<'a> {
                     for (at, value) in places.iter().zip(values) {
                         whole[*at] = value;
                     }
-                    let found = named(&places, quantities, &whole);
-                    let known: Vec<String> = points
+                    let asked = named(&places, quantities, &whole);
+                    let given: Vec<String> = points
                         .iter()
                         .take(MOST_NAMES)
                         .map(|point| point.name.clone())
                         .chain((points.len() > MOST_NAMES).then(|| "...".to_owned()))
                         .collect();
                     let reason = format!(
-                        "{found} is no row of the model's conditions; they have {}",
-                        known.join("; ")
+                        "{asked} is no row of the model's conditions; they have {}",
+                        given.join("; ")
                     );
-                    let column = self.conditions.first().map_or(0, |column| column.place);
+                    let column = self.conditions.first().map_or(0, |column| column.index);
                     let place = self.table.place(line, column);
                     self.log.report_at(place, DiagnosticKind::Table { reason });
                 }
@@ -221,8 +234,8 @@ impl<'a> ReadingColumns<'a> {
             return Some(Some(Sharing::Row));
         };
         if let [column] = self.conditions.as_slice() {
-            let place = self.known.iter().position(|name| *name == column.name)?;
-            return Some(Some(Sharing::Condition(place)));
+            let condition = self.known.iter().position(|name| *name == column.name)?;
+            return Some(Some(Sharing::Condition(condition)));
         }
         let others: Vec<String> = conditions
             .quantities
@@ -246,9 +259,9 @@ impl<'a> ReadingColumns<'a> {
     /// inside after an error.
     #[allow(clippy::option_option)]
     pub(super) fn of(&self, names: &[&str], unit: &Unit) -> Option<Option<FileReadings>> {
-        let found: Vec<&ReadingColumn> =
+        let columns: Vec<&ReadingColumn> =
             self.columns.iter().filter(|column| names.contains(&column.name.as_str())).collect();
-        let column = match found.as_slice() {
+        let column = match columns.as_slice() {
             [] => return None,
             [column] => column,
             [first, second, ..] => {
@@ -318,7 +331,7 @@ impl<'a> ReadingColumns<'a> {
         point: &Point,
         to: &Conversion<'_>,
     ) -> Option<Vec<f64>> {
-        let is_filled = |line: &usize| !self.table.text(*line, column.place).is_empty();
+        let is_filled = |line: &usize| !self.table.text(*line, column.index).is_empty();
         let filled = point.lines.iter().rposition(is_filled).map_or(0, |at| at + 1);
         let numbers = point.lines.iter().take(filled).map(|line| self.number(*line, column, to));
         // all errors of a column come at once
@@ -335,8 +348,8 @@ impl<'a> ReadingColumns<'a> {
 
     /// The number in a cell, in the unit of the model.
     fn number(&self, line: usize, column: &ReadingColumn, to: &Conversion<'_>) -> Option<f64> {
-        let cell = self.table.text(line, column.place);
-        let report = |kind| self.log.report_at(self.table.place(line, column.place), kind);
+        let cell = self.table.text(line, column.index);
+        let report = |kind| self.log.report_at(self.table.place(line, column.index), kind);
         let text = match self.marks.borrow_mut().with_point(cell) {
             Ok(text) => text.into_owned(),
             Err(reason) => {
@@ -365,7 +378,7 @@ impl<'a> ReadingColumns<'a> {
         if Unit::convert(1.0, own, unit).is_ok() {
             return Some(Conversion { own: Some(own), unit });
         }
-        let (of, hint) = match self.new.model {
+        let (model, hint) = match self.new.model {
             Some(model) => (
                 format!(" in `{model}`"),
                 format!("; a column of another model file is headed `MODEL:{}`", column.text),
@@ -373,7 +386,7 @@ impl<'a> ReadingColumns<'a> {
             None => (String::new(), String::new()),
         };
         let reason = format!(
-            "the column `{}` is in `{}`, which cannot be converted to `{}`, the unit of `{}`{of}{hint}",
+            "the column `{}` is in `{}`, which cannot be converted to `{}`, the unit of `{}`{model}{hint}",
             column.heading, other.heading, other.declared, column.name
         );
         self.log.report_at(self.place_of(column), DiagnosticKind::Table { reason });
@@ -381,7 +394,7 @@ impl<'a> ReadingColumns<'a> {
     }
 
     fn place_of(&self, column: &ReadingColumn) -> Place {
-        self.table.heading(column.place)
+        self.table.heading(column.index)
     }
 
     /// Reports columns that no readings of the model have taken, and those that replacements contradict;
@@ -438,7 +451,7 @@ fn column(
     log: &Collector,
     table: &TextTable,
     model: Option<&str>,
-    place: usize,
+    index: usize,
     heading: &str,
 ) -> Option<ReadingColumn> {
     let text = match model.and_then(|model| Some((model, heading.rsplit_once(':')?))) {
@@ -447,11 +460,11 @@ fn column(
         None => heading.trim(),
     };
     let report = |reason| {
-        log.report_at(table.heading(place), DiagnosticKind::Table { reason });
+        log.report_at(table.heading(index), DiagnosticKind::Table { reason });
         None
     };
     if text.is_empty() {
-        return report(format!("column {} has no name in the header", place + 1));
+        return report(format!("column {} has no name in the header", index + 1));
     }
     let Some((name, unit)) = column_heading::heading(log, text) else {
         return report(format!(
@@ -460,7 +473,7 @@ fn column(
     };
     let (name, unit) = if name == text { (text, None) } else { (name, Some(unit)) };
     Some(ReadingColumn {
-        place,
+        index,
         heading: heading.to_owned(),
         text: text.to_owned(),
         name: name.to_owned(),
@@ -566,6 +579,16 @@ mod tests {
         let per = format!("{READINGS}, \"per\": \"row\"");
         let stated = read(&per, GRID, of_f, &[]).unwrap();
         assert_eq!(stated.task.variables[0].sharing, Sharing::Row);
+    }
+
+    #[test]
+    fn every_point_needs_lines() {
+        let said =
+            read(READINGS, r#""f": {"values": [1, 2, 3]}"#, "f,x\n1,1\n2,1\n", &[]).unwrap_err();
+        assert!(
+            said.contains("more points than there are lines") && said.contains("`f` = 3"),
+            "{said}"
+        );
     }
 
     #[test]

@@ -132,10 +132,10 @@ pub(super) fn replacing(
     names: &[&str],
     unit: &Unit,
 ) -> Option<Option<FileReadings>> {
-    let found = columns.of(names, unit)?;
+    let replaced = columns.of(names, unit)?;
     let name = names.first().copied().unwrap_or_default();
     let read = || {
-        let read = found?;
+        let read = replaced?;
         if object.get("groups").is_none() {
             return Some(read);
         }

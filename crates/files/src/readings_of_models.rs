@@ -18,22 +18,21 @@ pub(super) struct ModelOfReadings<'m> {
 
 /// Reports columns that no model has taken, and columns that more than one could mean.
 pub(super) fn check(log: &Collector, file: &ReadingsFile, models: &[ModelOfReadings<'_>]) {
-    for (place, heading) in file.table.columns().iter().enumerate() {
-        let reason = match reason(heading, models) {
-            Some(reason) => reason,
-            None => continue,
-        };
-        log.report_at(file.table.heading(place), DiagnosticKind::Table { reason });
+    for (index, heading) in file.table.columns().iter().enumerate() {
+        if let Some(reason) = reason(heading, models) {
+            log.report_at(file.table.heading(index), DiagnosticKind::Table { reason });
+        }
     }
 }
 
 fn reason(heading: &str, models: &[ModelOfReadings<'_>]) -> Option<String> {
-    let of = |list: fn(&ModelReadings) -> &[String]| {
+    let models_with = |list: fn(&ModelReadings) -> &[String]| {
         models.iter().filter(move |model| list(model.readings).iter().any(|known| known == heading))
     };
     let with_readings: Vec<String> =
-        of(|readings| &readings.taken).map(|model| format!("`{}`", model.name)).collect();
-    let with_condition: Vec<&str> = of(|readings| &readings.conditions).map(|of| of.name).collect();
+        models_with(|readings| &readings.taken).map(|model| format!("`{}`", model.name)).collect();
+    let with_condition: Vec<&str> =
+        models_with(|readings| &readings.conditions).map(|model| model.name).collect();
     if let [first, _, ..] = with_readings.as_slice() {
         let example = format!("{}:{heading}", first.trim_matches('`'));
         let both = listed(&with_readings, " and ");
