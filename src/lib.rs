@@ -288,13 +288,13 @@ pub mod file {
     pub use gumption_files::{
         CarriedModel, CaseFile, CertificateFile, CertificateListing, CertifiedModel, CostFile,
         EffectListing, FileReader, ListedEffect, ListedParameter, ListedPart, ListedQuantity,
-        ModelFile, ModelOrResult, NotCopied, OpenedRow, Override, Overrides, RecipeCondition,
-        RecipeFile, RecipeRow, Recording, ResultFile, SavedOutput, SharedFileError,
-        SharedFileHeader, SharedFileKind, SharedModelError, SharedRun, TextKind, carried_models,
-        catalogue, certificate_listing, certificate_listing_text, check, check_text, difference,
-        named_in, read, read_case, read_certificate, read_costs, read_costs_text, read_drift,
-        read_recipe, read_recipe_text, read_result, read_target, read_text, schema, shared_file,
-        shared_file_bytes,
+        ModelFile, ModelOrResult, NotCopied, OpenedRow, Override, Overrides, ReadingsFile,
+        RecipeCondition, RecipeFile, RecipeRow, Recording, ResultFile, SavedOutput,
+        SharedFileError, SharedFileHeader, SharedFileKind, SharedModelError, SharedRun, TextKind,
+        carried_models, catalogue, certificate_listing, certificate_listing_text, check,
+        check_text, difference, named_in, read, read_case, read_certificate, read_costs,
+        read_costs_text, read_drift, read_recipe, read_recipe_text, read_result, read_target,
+        read_text, schema, shared_file, shared_file_bytes,
     };
     pub use gumption_foreign::{
         Coefficients, ComparisonOptions, ComparisonTable, ImportOptions, ImportedBudget, Question,

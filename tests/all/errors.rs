@@ -12,7 +12,7 @@ use serde_json::Value;
 use crate::support::{command, file_name, root};
 
 /// Mistakes that `check` does not see, with the command that does.
-const COMMANDS: [(&str, &[&str]); 15] = [
+const COMMANDS: [(&str, &[&str]); 25] = [
     ("wrong_kind_of_file", &["certificate", "wrong_kind_of_file.json"]),
     ("several_rows", &["diff", "good.result", "several_rows.json"]),
     ("run_undefined", &["run", "--trials", "1000", "run_undefined.json"]),
@@ -31,6 +31,44 @@ const COMMANDS: [(&str, &[&str]); 15] = [
     ("recipe_search_of_estimate", &["observe", "recipe_search_of_estimate.json"]),
     ("recipe_frequencies_too_near", &["observe", "recipe_frequencies_too_near.json"]),
     ("set_unknown_input", &["run", "--set", "y=2", "set_unknown_input.json"]),
+    (
+        "readings_unknown_input",
+        &["run", "--readings", "readings_unknown_input.csv", "readings_unknown_input.json"],
+    ),
+    (
+        "readings_not_of_readings",
+        &["run", "--readings", "readings_not_of_readings.csv", "readings_not_of_readings.json"],
+    ),
+    (
+        "readings_other_unit",
+        &["run", "--readings", "readings_other_unit.csv", "readings_other_unit.json"],
+    ),
+    ("readings_gap", &["run", "--readings", "readings_gap.csv", "readings_gap.json"]),
+    ("readings_one", &["run", "--readings", "readings_one.csv", "readings_one.json"]),
+    (
+        "readings_no_point",
+        &["run", "--readings", "readings_no_point.csv", "readings_no_point.json"],
+    ),
+    (
+        "readings_point_missing",
+        &["run", "--readings", "readings_point_missing.csv", "readings_point_missing.json"],
+    ),
+    ("readings_set", &["run", "--set", "V.values=5.01, x", "readings_set.json"]),
+    (
+        "readings_twice",
+        &[
+            "run",
+            "--readings",
+            "readings_twice.csv",
+            "--set",
+            "V.values=5,6",
+            "readings_twice.json",
+        ],
+    ),
+    (
+        "readings_of_two_models",
+        &["certificate", "--readings", "readings_of_two_models.csv", "readings_of_two_models.json"],
+    ),
 ];
 
 /// Mistakes that no file of a reasonable size and no command shows.

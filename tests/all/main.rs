@@ -70,6 +70,7 @@ mod stack;
 mod strangers;
 mod support;
 mod temperatures;
+mod todays_readings;
 mod units;
 mod verify;
 mod ways_in;

@@ -8,7 +8,7 @@ use crate::process::Command;
 use crate::support::{output, root};
 
 /// Pages whose commands are run in an empty folder, top to bottom.
-const WALKED: [&str; 2] = ["tutorial.md", "model-files.md"];
+const WALKED: [&str; 3] = ["tutorial.md", "model-files.md", "readings.md"];
 
 fn page(name: &str) -> String {
     fs::read_to_string(root().join("docs").join(name)).expect("a page of the manual")

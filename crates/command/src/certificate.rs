@@ -1,5 +1,6 @@
 //! `gumption certificate`
 
+mod each;
 mod rounding;
 
 use gumption_engine::fact;
@@ -12,7 +13,8 @@ use clap::{Args, ValueEnum};
 
 use super::exit::say;
 use super::options::{
-    self, AnswerOptions, CoverageOption, Interactive, Seed, StatementOption, Threads, Trust,
+    self, AnswerOptions, CoverageOption, Interactive, Seed, StatementOption, Threads,
+    TodaysReadings, Trust,
 };
 use super::output::AnswerPlace;
 use super::{CommandLine, Exit, Failure, output, progress, run, signals};
@@ -25,10 +27,14 @@ use gumption_report::certificate::{self as report, CertificateReport, DccVersion
 use gumption_text::{Diagnostic, DiagnosticKind, Diagnostics};
 
 /// Make a calibration certificate.
-#[derive(Debug, Args)]
+#[derive(Clone, Debug, Args)]
 pub(super) struct Certificate {
     /// The certificate file; - for standard input
     file: PathBuf,
+    #[command(flatten)]
+    readings: TodaysReadings,
+    #[command(flatten)]
+    each: each::EachFile,
     #[command(flatten)]
     trust: Trust,
     #[command(flatten)]
@@ -107,6 +113,9 @@ impl From<Version> for DccVersion {
 
 impl Certificate {
     pub(super) fn execute(&self, program: &CommandLine) -> Result<Exit, Failure> {
+        if self.each.is_asked() {
+            return self.of_each_file(program);
+        }
         let page = self.interactive.of(&self.answer)?;
         let mut file = self.read(program)?;
         self.check_format(&file)?;
@@ -219,7 +228,8 @@ impl Certificate {
     }
 
     fn read(&self, program: &CommandLine) -> Result<CertificateFile, Failure> {
-        let files = self.trust.files(program);
+        let readings = self.readings.read()?;
+        let files = self.trust.files(program).with_readings(readings.as_ref());
         let text = |files: FileReader<'_>, name: &str, text: &str, folder: &Path| {
             files.certificate_text(name, text, folder)
         };
@@ -234,6 +244,7 @@ impl Certificate {
             let tables = options::with_named(&path, model.files.iter().map(|(name, _)| name));
             paths.extend(tables.into_iter().skip(1));
         }
+        paths.extend(self.readings.file.clone());
         paths
     }
 

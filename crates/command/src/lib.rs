@@ -32,6 +32,7 @@ mod parts;
 mod plan;
 #[cfg_attr(target_family = "wasm", path = "no_progress.rs")]
 mod progress;
+mod readings;
 mod replacement;
 mod run;
 mod save;
@@ -99,6 +100,8 @@ enum Command {
     Dcc(dcc::Dcc),
     /// Convert an uncertainty budget in a spreadsheet into a model file
     Import(import::Import),
+    /// Write the heading of a file of readings for a model file
+    Readings(readings::Readings),
     /// Write a new model file, from options or from answers to questions
     New(new::New),
     /// List the typed measurement models, or describe one
@@ -248,6 +251,7 @@ impl CommandLine {
             Command::Compare(command) => command.execute(),
             Command::Dcc(command) => command.execute(),
             Command::Import(command) => command.execute(),
+            Command::Readings(command) => command.execute(self),
             Command::Models(command) => command.execute(self),
             Command::Verify(command) => command.execute(self),
             Command::Diff(command) => command.execute(self),

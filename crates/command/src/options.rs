@@ -19,7 +19,7 @@ use gumption_engine::propagate::Control;
 use gumption_engine::task::{
     Coverage, MethodChoice, Row, StatementMethod, StoppingRule, Trials, Warning,
 };
-use gumption_files::{CaseFile, FileReader, ModelFile, Override};
+use gumption_files::{CaseFile, FileReader, ModelFile, Override, ReadingsFile};
 use gumption_report::{BudgetColumn, plain};
 use gumption_text::bytes;
 
@@ -54,7 +54,7 @@ pub(super) enum Page {
 }
 
 /// The options for giving an answer in one of the formats of a command.
-#[derive(Debug, Args)]
+#[derive(Clone, Debug, Args)]
 pub(super) struct AnswerOptions<F: ValueEnum + Send + Sync + 'static> {
     /// Format of the answer
     #[arg(long, value_enum, default_value = "table")]
@@ -101,7 +101,7 @@ impl<F: ValueEnum + Send + Sync + 'static> AnswerOptions<F> {
 }
 
 /// Whether an HTML page has a script.
-#[derive(Debug, Args)]
+#[derive(Clone, Debug, Args)]
 pub(super) struct Interactive {
     /// Add a script to the HTML page: values under the pointer, sortable tables, enlargeable
     /// figures, methods that can be hidden. The script loads nothing, and the page is complete
@@ -138,7 +138,7 @@ pub(super) fn workbook_in_terminal() -> Failure {
 }
 
 /// The seed of the random numbers.
-#[derive(Debug, Args)]
+#[derive(Clone, Debug, Args)]
 pub(super) struct Seed {
     /// Seed of the random streams
     #[arg(long, value_name = "N", value_parser = seed, allow_negative_numbers = true)]
@@ -153,7 +153,7 @@ impl Seed {
 }
 
 /// The coverage of intervals and expanded uncertainties.
-#[derive(Debug, Args)]
+#[derive(Clone, Debug, Args)]
 pub(super) struct CoverageOption {
     /// Coverage probability
     #[arg(long, value_name = "P", value_parser = probability, allow_negative_numbers = true)]
@@ -185,7 +185,7 @@ impl CoverageOption {
 }
 
 /// The number of threads.
-#[derive(Debug, Args)]
+#[derive(Clone, Debug, Args)]
 pub(super) struct Threads {
     /// Number of threads [default: all of the machine]
     #[arg(long, value_name = "N", value_parser = threads, allow_negative_numbers = true)]
@@ -229,7 +229,7 @@ impl Threads {
 }
 
 /// Other folders in which files may name files.
-#[derive(Debug, Args)]
+#[derive(Clone, Debug, Args)]
 pub(super) struct AllowedFolders {
     /// Let files name other files below this folder too, not only below their own (repeatable)
     #[arg(long = "allow-path", value_name = "DIR")]
@@ -244,7 +244,7 @@ impl AllowedFolders {
 }
 
 /// How far files that others may have written are trusted.
-#[derive(Debug, Args)]
+#[derive(Clone, Debug, Args)]
 pub(super) struct Trust {
     #[command(flatten)]
     folders: AllowedFolders,
@@ -277,7 +277,8 @@ pub(super) struct ModelArguments {
     model: PathBuf,
     #[command(flatten)]
     trust: Trust,
-    /// Replace an input's estimate (NAME=35, NAME="35 deg") or a field (NAME.half_width=0.2)
+    /// Replace an input's estimate (NAME=35, NAME="35 deg"), a field (NAME.half_width=0.2) or readings
+    /// (NAME.values="5.01, 5.02 V")
     #[arg(long = "set", value_name = "NAME=VALUE", value_parser = replacement)]
     pub(super) replacements: Vec<Override>,
 }
@@ -285,16 +286,20 @@ pub(super) struct ModelArguments {
 impl ModelArguments {
     /// The model file with the replacements.
     pub(super) fn read(&self, program: &CommandLine) -> Result<ModelFile, Failure> {
-        self.read_for(program, None)
+        self.read_for(program, None, &TodaysReadings::default())
     }
 
-    /// The same for a run with this number of trials, whatever the file says.
+    /// The same for a run with this number of trials, whatever the file says, and with the readings
+    /// of the day.
     pub(super) fn read_for(
         &self,
         program: &CommandLine,
         trials: Option<Trials>,
+        readings: &TodaysReadings,
     ) -> Result<ModelFile, Failure> {
-        let (files, replaced) = (self.trust.files(program).making(trials), &self.replacements);
+        let readings = readings.read()?;
+        let files = self.trust.files(program).making(trials).with_readings(readings.as_ref());
+        let replaced = &self.replacements;
         let text = |files: FileReader<'_>, name: &str, text: &str, folder: &Path| {
             files.model_text(name, text, folder, replaced)
         };
@@ -309,6 +314,22 @@ impl ModelArguments {
     /// The paths of the file and of the files that it names.
     pub(super) fn paths(&self, file: &ModelFile) -> Vec<PathBuf> {
         with_named(&self.model, file.files.iter().map(|(name, _)| name))
+    }
+}
+
+/// Readings that replace those of a model file.
+#[derive(Clone, Debug, Default, Args)]
+pub(super) struct TodaysReadings {
+    /// Replace readings: a table (.csv, .xlsx) with columns by the names of inputs, with units, and a
+    /// line for each reading; a column of a condition says to which point a line belongs
+    #[arg(long = "readings", id = "file_of_readings", value_name = "FILE")]
+    pub(super) file: Option<PathBuf>,
+}
+
+impl TodaysReadings {
+    /// The readings, if a file is given.
+    pub(super) fn read(&self) -> Result<Option<ReadingsFile>, Failure> {
+        Ok(self.file.as_deref().map(ReadingsFile::open).transpose()?)
     }
 }
 

@@ -6,7 +6,9 @@ use std::sync::atomic::AtomicBool;
 use clap::{Args, ValueEnum};
 
 use super::evaluated::Evaluated;
-use super::options::{self, CoverageOption, ModelArguments, Seed, StatementOption, Threads};
+use super::options::{
+    self, CoverageOption, ModelArguments, Seed, StatementOption, Threads, TodaysReadings,
+};
 use super::parted_run::PartedRun;
 use super::{CommandLine, Exit, Failure, parts, progress, signals};
 use gumption_engine::propagate::{Control, Evaluation, EvaluationError, evaluate};
@@ -19,6 +21,8 @@ use gumption_report::Provenance;
 pub(super) struct Run {
     #[command(flatten)]
     model: ModelArguments,
+    #[command(flatten)]
+    readings: TodaysReadings,
     #[command(flatten)]
     evaluated: Evaluated,
     #[command(flatten)]
@@ -102,7 +106,7 @@ enum DofRule {
 
 impl Run {
     pub(super) fn execute(&self, program: &CommandLine) -> Result<Exit, Failure> {
-        let file = self.model.read_for(program, self.trials)?;
+        let file = self.model.read_for(program, self.trials, &self.readings)?;
         let mut task = file.task.clone();
         self.settings(&mut task);
         if self.rule.is_some() && task.settings.trials != Trials::Adaptive {
@@ -117,14 +121,14 @@ impl Run {
         };
         let quiet = self.evaluated.answer.quiet;
         if let (Some(blocks), Some(partial)) = (&self.blocks, &self.partial) {
-            let read = self.model.paths(&file);
+            let read = self.paths(&file);
             let asked =
                 parts::AskedPart { blocks, partial, pass: self.pass.as_deref(), read, quiet };
             let run = shared();
             return parts::make(PartedRun::new(&file, &task, &run), asked, &control);
         }
         self.evaluated.check(&task)?;
-        let places = self.evaluated.open(&self.model.paths(&file))?;
+        let places = self.evaluated.open(&self.paths(&file))?;
         let (evaluation, quantiles) = match &self.resume {
             Some(folder) => {
                 let asked = (folder.as_path(), self.evaluated.saves());
@@ -140,6 +144,13 @@ impl Run {
             self.model.replacements.iter().map(|set| set.text.clone()).collect();
         let found = (&file, &task, &evaluation, quantiles);
         self.evaluated.give(found, &replaced, places, (&control, &stop))
+    }
+
+    /// The paths of the files that the answer is computed from.
+    fn paths(&self, file: &ModelFile) -> Vec<PathBuf> {
+        let mut paths = self.model.paths(file);
+        paths.extend(self.readings.file.clone());
+        paths
     }
 
     /// The command line takes precedence over the file.

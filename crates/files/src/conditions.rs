@@ -376,6 +376,11 @@ fn only(object: &Object<'_>, member: &Member, mut table: Table) -> Option<Table>
     Some(table)
 }
 
+/// Whether two values of a condition are the same but for rounding.
+pub(super) fn is_same(a: f64, b: f64) -> bool {
+    (a - b).abs() <= 1e-9 * a.abs().max(b.abs())
+}
+
 /// What parameters of effects see of the conditions: nothing.
 #[derive(Debug)]
 pub(super) struct NoConditions;

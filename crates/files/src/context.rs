@@ -3,6 +3,7 @@
 
 use std::path::{Path, PathBuf};
 
+use super::readings_file::NewReadings;
 use gumption_engine::model::typed::Catalogue;
 use gumption_engine::task::Trials;
 use gumption_text::{FileSource, Folder};
@@ -19,6 +20,8 @@ pub(super) struct Context<'c> {
     /// Whether saved results that were changed are taken.
     pub(super) changed_results: bool,
     pub(super) trials: Option<Trials>,
+    /// Readings that replace those of model files.
+    pub(super) readings: Option<NewReadings<'c>>,
 }
 
 impl<'c> Context<'c> {
@@ -32,6 +35,7 @@ impl<'c> Context<'c> {
             within: None,
             changed_results: false,
             trials: None,
+            readings: None,
         }
     }
 

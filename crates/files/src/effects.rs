@@ -139,7 +139,15 @@ impl EffectsReader<'_> {
         };
         // parameters are always drawn; an effect of known size has none
         let inputs = parameters.and_then(|parameters| {
-            inputs::read(self.log, parameters, &NoConditions, &[], self.results, Trials::Adaptive)
+            inputs::read(
+                self.log,
+                parameters,
+                &NoConditions,
+                &[],
+                self.results,
+                None,
+                Trials::Adaptive,
+            )
         });
         let overrides = match overrides {
             Some(overrides) => {

@@ -5,6 +5,7 @@ use std::ops::Range;
 
 use super::dcc::Certified;
 use super::known::KnownVariables;
+use super::model_readings::ModelReadings;
 use gumption_engine::model::InputQuantity;
 use gumption_engine::task::{Evidence, Variable, Warning};
 
@@ -28,6 +29,10 @@ pub(super) struct InputSet {
     pub(super) files: Vec<(String, Vec<u8>)>,
     /// Variables with the name of a file that what is known of them was read from.
     pub(super) read_from: Vec<(usize, String)>,
+    /// The variables with readings, by name, and what of a file of readings they have taken.
+    pub(super) readings: ModelReadings,
+    /// Those whose readings come from a file that replaces what the model says.
+    pub(super) replaced: Vec<String>,
     /// The variables whose readings are said to be paired.
     pub(super) paired: Vec<usize>,
     /// The first variable of the parts of a complex quantity, with the correlation coefficient of the

@@ -10,6 +10,7 @@ use super::instrument;
 use super::keys::{self, FileShape};
 use super::overrides::Override;
 use super::paired;
+use super::reading_columns::ReadingColumns;
 use super::readings::{self, FileReadings};
 use super::results::ResultFiles;
 use super::samples;
@@ -49,6 +50,7 @@ pub(super) fn read(
     conditions: &dyn ConditionValues,
     overrides: &[Override],
     results: &ResultFiles<'_>,
+    new: Option<&ReadingColumns<'_>>,
     trials: Trials,
 ) -> Option<InputSet> {
     let object = Object::new(log, "`inputs`", &member.value, &member.key_span)?;
@@ -76,6 +78,7 @@ pub(super) fn read(
             moved,
             folder,
             results,
+            new,
             certificate,
             inputs,
             whole,
@@ -102,6 +105,8 @@ struct InputReader<'a, 'i> {
     moved: Option<&'a Override>,
     folder: Folder<'a>,
     results: &'a ResultFiles<'a>,
+    /// Readings that replace those of the file.
+    new: Option<&'a ReadingColumns<'a>>,
     /// What the input takes from a certificate.
     certificate: Option<FromCertificate>,
     inputs: &'i mut InputSet,
@@ -187,6 +192,7 @@ impl<'a> InputReader<'a, '_> {
             };
             let moved = overrides.iter().rev().find(is_part);
             let (conditions, folder, results) = (self.conditions, self.folder, self.results);
+            let new = self.new;
             let inputs = &mut *self.inputs;
             let known = inputs.quantities.len();
             let name = name.as_str();
@@ -198,6 +204,7 @@ impl<'a> InputReader<'a, '_> {
                 moved,
                 folder,
                 results,
+                new,
                 inputs,
                 whole: whole.clone(),
             };
@@ -331,20 +338,21 @@ impl<'a> InputReader<'a, '_> {
     fn single(&mut self, unit: &Unit) {
         let object = self.object;
         let Some(kind) = shapes::kind(&object) else {
-            return self.variable(self.name.to_owned(), &object, None, unit);
+            return self.variable(self.name.to_owned(), &object, None, None, unit);
         };
         let known: Vec<&str> = keys::INPUT.into_iter().chain(kind.fields.iter().copied()).collect();
         keys::check_names(&object, &known);
         instrument::check(&object, kind, unit);
         self.evidence(unit);
         let variable = self.inputs.variables.len();
-        self.variable(self.name.to_owned(), &object, Some(kind), unit);
+        let read = self.readings_of_file(&object, &[self.name], unit, kind);
+        let of_rows = read.as_ref().and_then(Option::as_ref);
+        self.variable(self.name.to_owned(), &object, Some(kind), of_rows, unit);
         let key = if kind.name == "constant" { "value" } else { "mean" };
         let Some(source) = self.source(key, unit) else {
             return;
         };
         let samples = self.samples(&object, self.name, (unit, ValueOf::Quantity), kind);
-        let read = self.readings_of_file(&object, self.name, unit, kind);
         let Some(read) = read else { return };
         if kind.name == "dcc" && self.certificate.is_none() {
             return;
@@ -368,7 +376,7 @@ impl<'a> InputReader<'a, '_> {
         let (mut zero_width, mut zero_share) = (Vec::new(), Vec::new());
         let mut drawn: Vec<Distribution> = Vec::new();
         let differs = matches!(source, EstimateSource::Formula(_))
-            || shapes::has_width_of_row(&object, kind, unit);
+            || shapes::has_width_of_row(&object, kind, unit, read.as_ref());
         for row in 0..if differs { self.conditions.rows() } else { 1 } {
             let estimate = self.estimate(&source, unit, row);
             let Some(distribution) = estimate.and_then(|e| fields(e, row).distribution(kind))
@@ -466,18 +474,24 @@ impl<'a> InputReader<'a, '_> {
         samples::read(object, name, unit, self.folder, &mut self.inputs.files)
     }
 
-    /// The readings of a file, if that is where they are; outside `None` after a mistake.
+    /// The readings of a file, if that is where they are, or of the file of readings that replaces what
+    /// the model says, where the columns have one of the names; outside `None` after a mistake.
     #[allow(clippy::option_option)]
     fn readings_of_file(
         &mut self,
         object: &Object<'_>,
-        name: &str,
+        names: &[&str],
         unit: &Unit,
         kind: &FileShape,
     ) -> Option<Option<FileReadings>> {
         if kind.name != "readings" {
             return Some(None);
         }
+        let replacing = self.new.and_then(|new| readings::replacing(new, object, names, unit));
+        if let Some(read) = replacing {
+            return read.map(Some);
+        }
+        let name = names.first().copied().unwrap_or_default();
         match readings::of_file(object, name, unit, self.folder, &mut self.inputs.files) {
             Some(read) => read.map(Some),
             None => {
@@ -509,7 +523,7 @@ impl<'a> InputReader<'a, '_> {
         let of_groups = read.and_then(|read| read.note.clone());
         let of_scatter = match drawn {
             Some(Distribution::Readings(readings)) => {
-                readings::refuse_branches(object, readings.values(), unit);
+                readings::refuse_branches(object, readings.values(), unit, read);
                 readings::dependence(name, readings.values())
             }
             Some(Distribution::Rectangular(_)) => Some(fact!("resolution-taken", name)),
@@ -545,9 +559,18 @@ impl<'a> InputReader<'a, '_> {
         name: String,
         object: &Object<'_>,
         kind: Option<&FileShape>,
+        read: Option<&FileReadings>,
         unit: &Unit,
     ) {
         let is_type_a = kind.is_some_and(|kind| kind.name == "readings");
+        if is_type_a {
+            self.inputs.readings.inputs.push(name.clone());
+            self.inputs.readings.columns.extend(readings::columns_of(object));
+            if let Some(Json::Text(groups)) = object.get("groups").map(|member| &member.value.value)
+            {
+                self.inputs.readings.groups.push(groups.clone());
+            }
+        }
         if is_type_a && object.truth("paired") == Some(true) {
             self.inputs.paired.push(self.inputs.variables.len());
         }
@@ -569,17 +592,26 @@ impl<'a> InputReader<'a, '_> {
         };
         let about = object.text("about").or_else(|| self.object.text("about")).unwrap_or("");
         let own_rows =
-            is_type_a && readings::are_of_rows(object) && self.object.get("per").is_none();
-        // every row has been read on its own
-        let sharing = if own_rows { Sharing::Row } else { self.sharing() };
+            is_type_a && readings::are_of_rows(object, read) && self.object.get("per").is_none();
+        // every row has been read on its own, unless the file of readings says which were not
+        let own = || read.and_then(|read| read.sharing.clone()).unwrap_or(Sharing::Row);
+        let sharing = if own_rows { own() } else { self.sharing() };
         let mut variable = Variable::new(name, unit.clone());
         variable.evaluation = evaluation;
         let group = object.text("group").or_else(|| self.object.text("group"));
         variable.group = group.map(str::to_owned);
         variable.about = about.to_owned();
         variable.sharing = sharing;
-        if let Some(Json::Text(file)) = object.get("file").map(|member| &member.value.value) {
+        let replacing = read.and_then(|read| read.replacing.as_ref());
+        let of_object = match object.get("file").map(|member| &member.value.value) {
+            Some(Json::Text(file)) => Some(file),
+            _ => None,
+        };
+        if let Some(file) = replacing.map(|(file, _)| file).or(of_object) {
             self.inputs.read_from.push((self.inputs.variables.len(), file.clone()));
+        }
+        if replacing.is_some() {
+            self.inputs.replaced.push(variable.name.clone());
         }
         self.inputs.variables.push(variable);
         self.inputs.places.push(object.place().clone());
@@ -615,7 +647,7 @@ impl<'a> InputReader<'a, '_> {
         keys::check_names(&object, &keys::COMPOSED);
         // the estimate: a constant without a line of its own
         let first = self.inputs.variables.len();
-        self.variable(self.name.to_owned(), &object, None, unit);
+        self.variable(self.name.to_owned(), &object, None, None, unit);
         if let Some(base) = self.inputs.variables.last_mut() {
             base.shown = false;
         }
@@ -656,13 +688,17 @@ impl<'a> InputReader<'a, '_> {
             None => (0.0, 0.0),
         };
         let differs = matches!(source, EstimateSource::Formula(_))
-            || parts.iter().any(|part| shapes::has_width_of_row(&part.object, part.kind, unit));
+            || parts.iter().any(|part| {
+                shapes::has_width_of_row(&part.object, part.kind, unit, part.read.0.as_ref())
+            });
         let mut drawn: Vec<Vec<Distribution>> = vec![Vec::new(); 1 + parts.len()];
         let mut totals: Vec<f64> = Vec::new();
         let mut zero_widths: Vec<Vec<usize>> = vec![Vec::new(); parts.len()];
         for row in 0..if differs { self.conditions.rows() } else { 1 } {
             let of_readings = match of_type_a.first() {
-                Some(part) if row > 0 && readings::are_of_rows(&part.object) => {
+                Some(part)
+                    if row > 0 && readings::are_of_rows(&part.object, part.read.0.as_ref()) =>
+                {
                     match part.distribution(unit, 0.0, self.results, at(row)) {
                         Some(distribution) => distribution.mean(),
                         None => return,
@@ -806,7 +842,8 @@ impl<'a> InputReader<'a, '_> {
                 keys::check_names(&component, &known);
                 instrument::check(&component, kind, unit);
                 let samples = self.samples(&component, &full, (unit, ValueOf::Difference), kind);
-                let Some(read) = self.readings_of_file(&component, &full, unit, kind) else {
+                let names = [full.as_str(), quantity];
+                let Some(read) = self.readings_of_file(&component, &names, unit, kind) else {
                     continue;
                 };
                 let beside_others = list.len() > 1;
@@ -822,7 +859,8 @@ impl<'a> InputReader<'a, '_> {
             }
         }
         for part in &parts {
-            self.variable(part.full.clone(), &part.object, Some(part.kind), unit);
+            let read = part.read.0.as_ref();
+            self.variable(part.full.clone(), &part.object, Some(part.kind), read, unit);
         }
         (parts.len() == list.len() && !list.is_empty()).then_some(parts)
     }

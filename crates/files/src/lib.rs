@@ -39,6 +39,7 @@ mod loose_files;
 mod model_checks;
 mod model_file;
 mod model_reader;
+mod model_readings;
 mod neutral;
 mod numbers_alone;
 mod observations;
@@ -50,7 +51,10 @@ mod overrides;
 mod paired;
 mod prior;
 mod reader;
+mod reading_columns;
 mod readings;
+mod readings_file;
+mod readings_of_models;
 mod recipe;
 mod regions;
 pub mod result;
@@ -85,11 +89,13 @@ pub use either::ModelOrResult;
 pub use gumption_columns::recording::Recording;
 pub use loose_files::named_in;
 pub use model_file::ModelFile;
+pub use model_readings::ModelReadings;
 pub use overrides::{Override, Overrides};
 pub use reader::{
     FileReader, check, check_text, read, read_case, read_certificate, read_recipe,
     read_recipe_text, read_result, read_text,
 };
+pub use readings_file::ReadingsFile;
 pub use recipe::{OpenedRow, RecipeCondition, RecipeFile, RecipeRow};
 pub use result::{ResultFile, SavedOutput};
 pub use shared_run::{

@@ -6,6 +6,7 @@ use std::sync::Arc;
 
 use super::context::Context;
 use super::model_reader::{ModelOptions, read_with};
+use super::model_readings::ModelReadings;
 use super::open::open;
 use super::overrides::Override;
 use gumption_engine::task::{Evidence, Task, Warning};
@@ -26,6 +27,8 @@ pub struct ModelFile {
     pub output_places: Vec<Range<usize>>,
     /// Readings that what is assumed about inputs can be tested against.
     pub evidence: Vec<Evidence>,
+    /// Which inputs have readings.
+    pub readings: ModelReadings,
 }
 
 /// Reads and checks a model file.

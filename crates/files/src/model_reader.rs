@@ -43,6 +43,7 @@ use super::open::{FileKind, check_format, read_changed_root, refuse_other_kind};
 use super::output_limits;
 use super::outputs::{self, Outputs};
 use super::overrides::{self, Override};
+use super::reading_columns::ReadingColumns;
 use super::results::ResultFiles;
 use super::scopes::{ConditionSet, condition_scope, number_form, report_formula, typed_scope};
 use super::simulated::{names_simulation, simulated};
@@ -246,6 +247,10 @@ impl<'a> ModelReader<'a> {
             Some(given) => simulator::add_conditions(root, given, &observed, &mut sim, conditions)?,
             None => simulated.len(),
         };
+        let new = self.options.files.readings;
+        if let Some(new) = new.filter(|_| quantities.inputs.readings.file.is_some()) {
+            new.file.add_to(root.log, &mut files);
+        }
         let are_swept = !quantities.conditions.quantities.is_empty();
         occasions::tell(&mut quantities.inputs, &files, self.options.overrides, are_swept);
 
@@ -256,6 +261,7 @@ impl<'a> ModelReader<'a> {
         let swept = root.get("conditions").is_some() || observations.is_some();
         let output_places = std::mem::take(&mut quantities.outputs.places);
         let evidence = std::mem::take(&mut quantities.inputs.evidence);
+        let readings = std::mem::take(&mut quantities.inputs.readings);
         let model = sim.model().map_err(|error| {
             root.report(DiagnosticKind::Evaluation { message: error.to_string() });
         });
@@ -268,7 +274,7 @@ impl<'a> ModelReader<'a> {
         warnings.extend(fits::extrapolation::notes(root.log, &sim, &task, &task.curves));
         warnings.extend(counted_twice::notes(&task));
         let source = root.log.source.clone();
-        let file = ModelFile { task, warnings, source, files, output_places, evidence };
+        let file = ModelFile { task, warnings, source, files, output_places, evidence, readings };
         let (data, replication) = match observations {
             Some(observed) => (Some(observed.table), observed.replication.map(|(name, _)| name)),
             None => (None, None),
@@ -371,9 +377,12 @@ impl<'a> ModelReader<'a> {
             ConditionSet { conditions: &conditions, check_units, constants: &constants };
         let none = ConstantInputs::default();
         let set = ConditionSet { constants: &none, ..of_inputs };
-        let inputs = match root.get("inputs") {
+        let new = self.options.files.readings;
+        let new = new.and_then(|new| ReadingColumns::read(log, new, &conditions));
+        let mut inputs = match root.get("inputs") {
             Some(member) => {
-                inputs::read(log, member, &of_inputs, self.options.overrides, results, trials)
+                let (replaced, new) = (self.options.overrides, new.as_ref());
+                inputs::read(log, member, &of_inputs, replaced, results, new, trials)
             }
             // somebody else's simulation needs none
             None if names_simulation(root) || root.get("fits").is_some() => {
@@ -381,6 +390,9 @@ impl<'a> ModelReader<'a> {
             }
             None => root.required("inputs").and(None),
         };
+        if let (Some(new), Some(inputs)) = (&new, &mut inputs) {
+            new.finish(inputs, self.options.overrides);
+        }
         let outputs =
             root.required("outputs").and_then(|member| outputs::read(log, member, results, &set));
         let (mut inputs, outputs) = (inputs?, outputs.unwrap_or_default());

@@ -1,5 +1,5 @@
 //! What tells an input from that of the same name in another evaluation of the same model file: the
-//! content of the files that it is read from, and where its figures follow the conditions, what stands
+//! content of the files that it is read from, or the values that replace its own, and where its figures follow the conditions, what stands
 //! in place of the file's values. And what tells that inputs of two model files are the same: their place
 //! in one certificate.
 //!
@@ -25,6 +25,14 @@ pub(super) fn tell(
     for (variable, data) in data(&inputs.read_from, files) {
         if let Some(variable) = inputs.variables.get_mut(variable) {
             variable.occasion.data = Some(data);
+        }
+    }
+    for change in overrides {
+        for variable in &mut inputs.variables {
+            let is_readings = inputs.readings.inputs.contains(&variable.name);
+            if change.is_list_of(&variable.name, is_readings) {
+                variable.occasion.data = Some(sha256(change.value.as_bytes()).into());
+            }
         }
     }
     for (name, place) in &inputs.from_certificates {

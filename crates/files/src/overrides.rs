@@ -1,8 +1,10 @@
 //! Values that stand in place of those of a file: estimates, fields of inputs, values of conditions.
 
+use std::borrow::Cow;
 use std::ops::Range;
 
 use super::dates;
+use gumption_columns::separator::{DecimalMarks, Separator};
 use gumption_text::json::{Json, Member, Node};
 use gumption_text::value_text::{ValueOf, converted, with_unit};
 use gumption_text::{Collector, DiagnosticKind};
@@ -24,6 +26,12 @@ pub struct Override {
 
 /// At most so many names are listed in a message.
 const MOST_NAMES: usize = 12;
+
+/// The field of readings and samples, which is a list.
+const LIST: &str = "values";
+
+/// The shapes that have it.
+const LISTED: [&str; 3] = ["readings", "samples", "quantiles"];
 
 /// Replacements in the order of the command line.
 pub type Overrides = Vec<Override>;
@@ -72,6 +80,20 @@ impl Override {
             DiagnosticKind::Override { text, reason }
         })?;
         Self { value: value.into_owned(), ..self.clone() }.value_in(unit, &log.own_units())
+    }
+
+    /// The variable whose listed values it replaces, `V` of `V.values=1,2`; readings that are a component
+    /// of `V` as well.
+    pub(super) fn is_list_of(&self, variable: &str, is_readings: bool) -> bool {
+        let Some(part) = self.field.as_deref().and_then(|field| field.strip_suffix(LIST)) else {
+            return false;
+        };
+        let rest = variable.strip_prefix(self.input.as_str());
+        let rest = rest.and_then(|rest| match part.strip_suffix('.') {
+            Some(part) => rest.strip_prefix('.')?.strip_prefix(part),
+            None => Some(rest).filter(|_| part.is_empty()),
+        });
+        rest.is_some_and(|rest| rest.is_empty() || is_readings && rest.starts_with('/'))
     }
 
     /// The value in `unit`: a number in it, or a number with another unit, also one that the file
@@ -123,7 +145,11 @@ pub(super) fn apply(log: &Collector, root: &mut Node, overrides: &[Override]) {
             _ => return,
         };
         let names: Vec<String> = inputs.iter().map(|m| m.key.clone()).collect();
-        let Some(input) = inputs.iter_mut().find(|m| m.key == replaced.input) else {
+        let (own, component) = match (&replaced.field, replaced.input.split_once('/')) {
+            (Some(_), Some((own, component))) => (own, Some(component)),
+            _ => (replaced.input.as_str(), None),
+        };
+        let Some(input) = inputs.iter_mut().find(|m| m.key == own) else {
             if let Some((file, Some(place))) = &table {
                 let name = &replaced.input;
                 let reason = format!(
@@ -181,24 +207,137 @@ pub(super) fn apply(log: &Collector, root: &mut Node, overrides: &[Override]) {
                 }
             }
         };
+        let report = |reason| {
+            let text = replaced.text.clone();
+            log.report(&whole, DiagnosticKind::Override { text, reason });
+        };
+        let span = input.key_span.clone();
+        let fields = match component {
+            None => fields,
+            Some(name) => match component_of(fields, |fields| has_text(fields, "name", name)) {
+                Some(fields) => fields,
+                None => {
+                    report(format!("`{own}` has no component `{name}`"));
+                    continue;
+                }
+            },
+        };
+        if field == LIST {
+            if let Err(reason) = replace_list(fields, replaced, &span) {
+                report(reason);
+            }
+            continue;
+        }
         let finite = replaced.value.parse::<f64>().is_ok_and(f64::is_finite);
         let value = if finite {
             Json::Number(replaced.value.clone())
         } else {
             Json::Text(replaced.value.clone())
         };
-        match fields.iter_mut().find(|m| m.key == field) {
-            Some(member) => member.value.value = value,
-            None => {
-                let span = input.key_span.clone();
-                fields.push(Member {
-                    key: field.to_owned(),
-                    key_span: span.clone(),
-                    value: Node { span, value },
-                });
-            }
+        put(fields, field, value, &span);
+    }
+}
+
+/// Puts a value into the fields of an object.
+fn put(fields: &mut Vec<Member>, key: &str, value: Json, span: &Range<usize>) {
+    match fields.iter_mut().find(|member| member.key == key) {
+        Some(member) => member.value.value = value,
+        None => {
+            let value = Node { span: span.clone(), value };
+            fields.push(Member { key: key.to_owned(), key_span: span.clone(), value });
         }
     }
+}
+
+/// Whether a field is this text.
+fn has_text(fields: &[Member], key: &str, text: &str) -> bool {
+    let is_it = |member: &Member| matches!(&member.value.value, Json::Text(found) if found == text);
+    fields.iter().any(|member| member.key == key && is_it(member))
+}
+
+/// The fields of a component.
+fn component_of(
+    fields: &mut [Member],
+    is_wanted: impl Fn(&[Member]) -> bool,
+) -> Option<&mut Vec<Member>> {
+    let components = fields.iter_mut().find(|member| member.key == "components")?;
+    let Json::List(components) = &mut components.value.value else { return None };
+    components.iter_mut().find_map(|node| match &mut node.value {
+        Json::Object(fields) if is_wanted(fields) => Some(fields),
+        _ => None,
+    })
+}
+
+/// Puts listed values in place of those of an input, of its component of readings, or of the file that
+/// they are read from; or why that cannot be.
+fn replace_list(
+    fields: &mut Vec<Member>,
+    replaced: &Override,
+    span: &Range<usize>,
+) -> Result<(), String> {
+    let has = |fields: &[Member], key: &str| fields.iter().any(|member| member.key == key);
+    let fields = match has(fields, "components") {
+        false => Some(fields),
+        true => component_of(fields, |fields| has_text(fields, "distribution", "readings")),
+    };
+    let input = &replaced.input;
+    let is_listed = |fields: &&mut Vec<Member>| {
+        LISTED.iter().any(|shape| has_text(fields, "distribution", shape))
+    };
+    let fields = fields.filter(is_listed);
+    let Some(fields) = fields else {
+        return Err(format!("`{input}` has no values; `--set {input}=...` changes its estimate"));
+    };
+    if has(fields, "groups") {
+        return Err(format!(
+            "the readings of `{input}` are in groups, which a list does not name; give a file with \
+             `--readings`"
+        ));
+    }
+    let list = listed_values(&replaced.value)?;
+    let nodes = list.into_iter().map(|value| Node { span: span.clone(), value }).collect();
+    fields.retain(|member| !["file", "column"].contains(&member.key.as_str()));
+    put(fields, LIST, Json::List(nodes), span);
+    Ok(())
+}
+
+/// Values between commas, or between semicolons, where numbers may have decimal commas: `5.01, 5.02`. One
+/// unit behind the last one is the unit of all.
+fn listed_values(text: &str) -> Result<Vec<Json>, String> {
+    let separator = match text.contains(';') {
+        true => Separator::Semicolon,
+        false => Separator::Comma,
+    };
+    let mut marks = DecimalMarks::of(separator);
+    let cells = text.split(separator.sign()).map(|cell| marks.with_point(cell.trim()));
+    let cells: Vec<Cow<'_, str>> = cells.collect::<Result<_, _>>()?;
+    let is_number = |cell: &Cow<'_, str>| cell.parse::<f64>().is_ok_and(f64::is_finite);
+    if cells.iter().all(is_number) {
+        return Ok(cells.into_iter().map(|cell| Json::Number(cell.into_owned())).collect());
+    }
+    let of_unit = |cell: &Cow<'_, str>| with_unit(cell).is_some();
+    let (last, others) = cells.split_last().unwrap_or((&Cow::Borrowed(""), &[]));
+    let unit = match with_unit(last) {
+        Some((_, unit)) if others.iter().all(is_number) => Some(unit),
+        Some(_) if others.iter().all(of_unit) => None,
+        _ => {
+            let wrong = cells.iter().find(|cell| !is_number(cell) && !of_unit(cell));
+            return Err(match wrong {
+                Some(wrong) => format!(
+                    "`{wrong}` is no number; values stand between commas: `5.01, 5.02, 5.03` or \
+                     `5.01, 5.02, 5.03 V`"
+                ),
+                None => "some values have a unit and others none; write it behind the last one, or behind \
+                         each"
+                    .to_owned(),
+            });
+        }
+    };
+    let whole = |cell: &Cow<'_, str>| match unit.filter(|_| is_number(cell)) {
+        Some(unit) => format!("{cell} {unit}"),
+        None => cell.clone().into_owned(),
+    };
+    Ok(cells.iter().map(|cell| Json::Text(whole(cell))).collect())
 }
 
 /// Puts one value in place of those of a condition of a grid; false if there is none of that name.
@@ -259,6 +398,40 @@ fn member_of<'n>(node: &'n mut Node, key: &str) -> Option<&'n mut Node> {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn lists_have_one_unit_or_a_unit_each() {
+        let read = |text: &str| {
+            let list = listed_values(text)?;
+            Ok::<_, String>(list.iter().map(|value| format!("{value:?}")).collect::<Vec<_>>())
+        };
+        let number = |text: &str| format!("{:?}", Json::Number(text.to_owned()));
+        let text = |text: &str| format!("{:?}", Json::Text(text.to_owned()));
+        assert_eq!(read("5.01, 5.02").unwrap(), [number("5.01"), number("5.02")]);
+        assert_eq!(read("5,01; 5,02").unwrap(), [number("5.01"), number("5.02")]);
+        assert_eq!(read("5.01,5.02 V").unwrap(), [text("5.01 V"), text("5.02 V")]);
+        assert_eq!(read("5.01 V, 5020 mV").unwrap(), [text("5.01 V"), text("5020 mV")]);
+        for wrong in ["", "5.01,", "5.01 V, 5.02", "5.01, x", "nan", "5.01 V, 5.02, 5.03 V"] {
+            assert!(read(wrong).is_err(), "{wrong}");
+        }
+    }
+
+    #[test]
+    fn lists_are_of_variables() {
+        for (text, variable, is_readings, expected) in [
+            ("V.values=1,2", "V", true, true),
+            ("V.values=1,2", "V/scatter", true, true),
+            ("V.values=1,2", "V/scale", false, false),
+            ("V.values=1,2", "V2", true, false),
+            ("V/scatter.values=1,2", "V/scatter", true, true),
+            ("z.re.values=1,2", "z.re", true, true),
+            ("z.re.values=1,2", "z.im", true, false),
+            ("V.mean=1", "V", true, false),
+        ] {
+            let of = Override::parse(text).unwrap();
+            assert_eq!(of.is_list_of(variable, is_readings), expected, "{text} {variable}");
+        }
+    }
 
     /// In either order, and of the parts of a complex quantity.
     #[test]

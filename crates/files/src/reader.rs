@@ -10,6 +10,7 @@ use super::either::{self, ModelOrResult};
 use super::model_file::{self, ModelFile};
 use super::open::open;
 use super::overrides::Override;
+use super::readings_file::{NewReadings, ReadingsFile};
 use super::recipe::{self, RecipeFile};
 use super::result::{self, ResultFile};
 use gumption_engine::model::typed::Catalogue;
@@ -96,6 +97,29 @@ impl<'c> FileReader<'c> {
     #[must_use]
     pub fn making(self, trials: Option<Trials>) -> Self {
         Self(Context { trials, ..self.0 })
+    }
+
+    /// The same with readings that replace those of the model file, or of the model files of a
+    /// certificate: columns by the names of inputs whose distribution is `readings`, a line for each
+    /// reading.
+    ///
+    /// ```
+    /// use std::path::Path;
+    /// use gumption_files::{FileReader, ReadingsFile};
+    ///
+    /// let today = ReadingsFile::of("today.csv", b"V [mV]\n5011\n5013\n5015\n".to_vec())?;
+    /// let model = r#"{"format": 1,
+    ///     "inputs": {"V": {"unit": "V", "distribution": "readings", "values": [5.0, 5.1, 5.2]}},
+    ///     "equations": {"y": "2*V"}, "outputs": {"y": {"unit": "V"}}}"#;
+    /// let file = FileReader::default().with_readings(Some(&today));
+    /// let file = file.model_text("m", model, Path::new(""), &[])?;
+    /// assert_eq!(file.task.rows[0].distributions[0].mean(), 5.013);
+    /// # Ok::<(), gumption_text::Diagnostics>(())
+    /// ```
+    #[must_use]
+    pub fn with_readings(self, readings: Option<&'c ReadingsFile>) -> Self {
+        let readings = readings.map(|file| NewReadings { file, model: None });
+        Self(Context { readings, ..self.0 })
     }
 
     /// A model file, with values in place of some of its own.

@@ -4,6 +4,7 @@
 use std::collections::HashMap;
 use std::sync::Arc;
 
+use super::reading_columns::ReadingColumns;
 use super::{keys, samples};
 use gumption_engine::decimal::{self, to_15_digits};
 use gumption_engine::fact;
@@ -11,28 +12,63 @@ use gumption_engine::fact::{Argument, Fact};
 use gumption_engine::number::Shortest;
 use gumption_engine::regression::{CurveFunction, Spread};
 use gumption_engine::special;
+use gumption_engine::task::Sharing;
 use gumption_text::angle_branches::{branches, turn};
 use gumption_text::json::{Json, Node};
 use gumption_text::object::Object;
 use gumption_text::table::{self, Table};
 use gumption_text::value_text::{ValueOf, is_value};
-use gumption_text::{DiagnosticKind, Folder, column_heading};
+use gumption_text::{DiagnosticKind, Folder, Place, column_heading};
 use gumption_units::{Unit, nearest};
 
 /// Readings of a file, with what is to be said of them.
-#[derive(Clone, Debug, Default, PartialEq)]
+#[derive(Clone, Debug, Default)]
 pub(super) struct FileReadings {
-    /// The readings, or the means of the groups.
-    pub(super) values: Vec<f64>,
+    /// The readings, or the means of the groups: of all rows of the conditions, or of each row.
+    pub(super) lists: Vec<Vec<f64>>,
+    /// Which rows share a value, where each row has readings.
+    pub(super) sharing: Option<Sharing>,
     pub(super) note: Option<Fact>,
+    /// The file that replaces what the model says, and the place of the readings in it.
+    pub(super) replacing: Option<(String, Place)>,
 }
 
-/// Whether the readings are named by columns of the conditions, so that every row has its own.
-pub(super) fn are_of_rows(object: &Object<'_>) -> bool {
+impl FileReadings {
+    /// The readings of all rows.
+    fn of_all_rows(values: Vec<f64>, note: Option<Fact>) -> Self {
+        Self { lists: vec![values], note, ..Self::default() }
+    }
+
+    /// The readings in a row.
+    pub(super) fn in_row(&self, row: usize) -> &[f64] {
+        self.lists.get(row).or(self.lists.first()).map_or(&[], Vec::as_slice)
+    }
+}
+
+/// Whether every row of the conditions has readings of its own: those of a file, or else those of the
+/// columns of the conditions' table that `values` names.
+pub(super) fn are_of_rows(object: &Object<'_>, read: Option<&FileReadings>) -> bool {
+    if let Some(read) = read {
+        return read.lists.len() > 1;
+    }
     let Some(Json::List(list)) = object.get("values").map(|member| &member.value.value) else {
         return false;
     };
     list.iter().any(is_formula)
+}
+
+/// The names in the formulas that `values` lists: columns of the conditions' table that are readings.
+pub(super) fn columns_of(object: &Object<'_>) -> Vec<String> {
+    let Some(Json::List(list)) = object.get("values").map(|member| &member.value.value) else {
+        return Vec::new();
+    };
+    let texts = list.iter().filter(|node| is_formula(node)).filter_map(|node| match &node.value {
+        Json::Text(text) => object.log.formula(text).ok(),
+        _ => None,
+    });
+    texts
+        .flat_map(|formula| formula.names().map(|(name, _)| name.to_owned()).collect::<Vec<_>>())
+        .collect()
 }
 
 /// Whether a reading is a text that is no value.
@@ -54,7 +90,7 @@ pub(super) fn of_file(
     if object.get("column").is_none() && object.get("groups").is_none() {
         let unit = (unit, ValueOf::Quantity);
         let numbers = samples::numbers(object, name, unit, folder, files);
-        return Some(numbers.map(|(values, _)| FileReadings { values, note: None }));
+        return Some(numbers.map(|(values, _)| FileReadings::of_all_rows(values, None)));
     }
     if let Some(second) = object.get("values") {
         let diagnostic = DiagnosticKind::Exclusive { first: "file", second: "values" };
@@ -79,10 +115,33 @@ pub(super) fn of_file(
             column_heading::check(object.log, &member.value.span, heading, of).then_some(())?;
         }
         if object.get("groups").is_none() {
-            return Some(FileReadings { values, note: None });
+            return Some(FileReadings::of_all_rows(values, None));
         }
         let groups = column(object, "groups", &table)?;
         grouped(object, name, &values, &groups)
+    };
+    Some(read())
+}
+
+/// The readings of a file that replace those of the object, which has one of these names. Outside `None`
+/// without such a column, inside after an error.
+#[allow(clippy::option_option)]
+pub(super) fn replacing(
+    columns: &ReadingColumns<'_>,
+    object: &Object<'_>,
+    names: &[&str],
+    unit: &Unit,
+) -> Option<Option<FileReadings>> {
+    let replaced = columns.of(names, unit)?;
+    let name = names.first().copied().unwrap_or_default();
+    let read = || {
+        let read = replaced?;
+        if object.get("groups").is_none() {
+            return Some(read);
+        }
+        let labels = columns.labels(object.text("groups")?, name)?;
+        let grouped = grouped(object, name, read.in_row(0), &labels)?;
+        Some(FileReadings { lists: grouped.lists, note: grouped.note, ..read })
     };
     Some(read())
 }
@@ -150,7 +209,7 @@ fn grouped(
         fact!("groups.within", deviation = shown(repeatability, 3), between)
     });
     let note = fact!("nested-readings", name, groups = count, dof = count - 1, within);
-    Some(FileReadings { values: means, note: Some(note) })
+    Some(FileReadings::of_all_rows(means, Some(note)))
 }
 
 /// The probability of a larger F with these degrees of freedom.
@@ -200,7 +259,12 @@ pub(super) fn dependence(name: &str, values: &[f64]) -> Option<Fact> {
 
 /// Refuses readings of an angle on both sides of a turn, 359.9 deg and 0.1 deg, whose mean is far from all of
 /// them.
-pub(super) fn refuse_branches(object: &Object<'_>, values: &[f64], unit: &Unit) {
+pub(super) fn refuse_branches(
+    object: &Object<'_>,
+    values: &[f64],
+    unit: &Unit,
+    read: Option<&FileReadings>,
+) {
     let Some(turn) = turn(unit) else { return };
     let Ok(added) = branches(values, turn) else { return };
     let moved = values.iter().zip(&added).find(|(_, turns)| **turns != 0.0);
@@ -213,8 +277,11 @@ pub(super) fn refuse_branches(object: &Object<'_>, values: &[f64], unit: &Unit) 
     );
     let key = if object.get("file").is_some() { "file" } else { "values" };
     let place = object.get(key).map_or(object.place(), |member| &member.value.span);
-    let key = key.to_owned();
-    object.log.report(place, DiagnosticKind::Value { key, found, reason });
+    let kind = DiagnosticKind::Value { key: key.to_owned(), found, reason };
+    match read.and_then(|read| read.replacing.as_ref()) {
+        Some((_, place)) => object.log.report_at(place.clone(), kind),
+        None => object.log.report(place, kind),
+    }
 }
 
 /// What stands in place of the scatter of readings.

@@ -152,12 +152,17 @@ fn formula_of_width(object: &Object<'_>, key: &str, unit: &Unit) -> Option<Strin
 }
 
 /// Whether a width of the object is a formula of conditions, so that it differs from row to row.
-pub(super) fn has_width_of_row(object: &Object<'_>, kind: &FileShape, unit: &Unit) -> bool {
+pub(super) fn has_width_of_row(
+    object: &Object<'_>,
+    kind: &FileShape,
+    unit: &Unit,
+    read: Option<&FileReadings>,
+) -> bool {
     let is_text = |key: &str| {
         let member = object.get(key);
         member.is_some_and(|member| matches!(member.value.value, Json::Text(_)))
     };
-    if kind.name == "readings" && readings::are_of_rows(object)
+    if kind.name == "readings" && readings::are_of_rows(object, read)
         || kind.fields.contains(&"dof") && is_text("dof")
         || kind.name == "dcc" && object.get("at").is_some()
     {
@@ -472,11 +477,12 @@ impl<'a> Fields<'a> {
                 object.log.report(&member.key_span, diagnostic);
                 return None;
             }
-            return self.summary();
         }
-        let values = match self.read {
-            Some(read) => read.values.clone(),
-            None => self.listed_readings()?,
+        let values = match (self.read, summary) {
+            // those of the day stand in place of a summary as well
+            (Some(read), _) => read.in_row(self.at.map_or(0, |(_, row)| row)).to_vec(),
+            (None, Some(_)) => return self.summary(),
+            (None, None) => self.listed_readings()?,
         };
         let count = values.len();
         let origin = values.first().copied().unwrap_or(f64::NAN);
@@ -513,7 +519,7 @@ impl<'a> Fields<'a> {
     fn listed_readings(&self) -> Option<Vec<f64>> {
         let object = &self.object;
         object.required("values")?;
-        let at = self.at.filter(|_| readings::are_of_rows(object));
+        let at = self.at.filter(|_| readings::are_of_rows(object, None));
         let Some((conditions, row)) = at else {
             return object.values("values", self.unit, self.of());
         };
@@ -888,12 +894,18 @@ impl<'a> Fields<'a> {
             Err(error) => {
                 let place = self.place_of(error.parameter());
                 let name = match self.at {
-                    Some((_, row)) if readings::are_of_rows(&self.object) => {
+                    Some((_, row)) if readings::are_of_rows(&self.object, self.read) => {
                         format!("{} in row {}", self.name, row + 1)
                     }
                     _ => self.name.to_owned(),
                 };
-                self.object.log.report(&place, DiagnosticKind::Distribution { name, error });
+                let replacing = self.read.and_then(|read| read.replacing.as_ref());
+                let of_file = replacing.filter(|_| error.parameter() == "values");
+                let kind = DiagnosticKind::Distribution { name, error };
+                match of_file {
+                    Some((_, place)) => self.object.log.report_at(place.clone(), kind),
+                    None => self.object.log.report(&place, kind),
+                }
                 None
             }
         }

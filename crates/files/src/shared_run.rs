@@ -11,11 +11,14 @@ use std::io::{self, Read};
 use std::ops::Range;
 use std::path::Path;
 
+use base64::Engine;
+use base64::engine::general_purpose::STANDARD as BASE64;
 use serde_json::{Map, Value, json};
 
 use super::model_file::ModelFile;
 use super::overrides::Override;
 use super::reader::FileReader;
+use super::readings_file::ReadingsFile;
 use gumption_engine::task::{
     Coverage, MethodChoice, Settings, StatementMethod, StoppingRule, Trials,
 };
@@ -26,7 +29,7 @@ use gumption_text::{Diagnostics, bytes};
 const MAGIC: &[u8] = b"gumption part\n";
 
 /// The version of the form.
-const FORM: u8 = 2;
+const FORM: u8 = 3;
 
 /// Bytes of a header, at most: a model file and the names of those that it names.
 const MOST_HEADER: u32 = 80_000_000;
@@ -51,6 +54,8 @@ pub struct SharedRun {
     pub text: String,
     /// The digests of the files that it names, by their names as it has them.
     pub files: Vec<(String, String)>,
+    /// The file of readings that replace those of the model: its name among `files` and its content.
+    pub readings: Option<(String, Vec<u8>)>,
     /// Values in place of some of the file's, as they were given.
     pub set: Vec<String>,
     /// The settings, those of the command line included.
@@ -156,6 +161,11 @@ impl SharedRun {
             model_path: path.map(|path| path.to_string_lossy().into_owned()),
             text: file.source.text.clone(),
             files: digests(&file.files),
+            readings: file
+                .readings
+                .file
+                .as_ref()
+                .and_then(|name| file.files.iter().find(|(known, _)| known == name).cloned()),
             set: set.iter().map(|set| set.text.clone()).collect(),
             settings: *settings,
             memory,
@@ -176,7 +186,13 @@ impl SharedRun {
         let set: Option<Vec<Override>> = set.collect();
         let changed = |what: &str| SharedModelError::Changed(what.to_owned());
         let set = set.ok_or_else(|| changed("the parts replace what is no input"))?;
-        let path = self.model_path.as_deref().map(Path::new).filter(|_| !self.files.is_empty());
+        let readings = self.readings.as_ref();
+        let is_named = |(name, _): &(String, String)| readings.is_none_or(|(own, _)| own != name);
+        let path = self.model_path.as_deref().map(Path::new);
+        let path = path.filter(|_| self.files.iter().any(is_named));
+        let readings = readings.map(|(name, content)| ReadingsFile::of(name, content.clone()));
+        let readings = readings.transpose().map_err(SharedModelError::Model)?;
+        let files = files.with_readings(readings.as_ref());
         let found = match at.or(path) {
             Some(path) => files.model(path, &set),
             None => files.model_text("<model of the parts>", &self.text, Path::new(NOWHERE), &set),
@@ -244,6 +260,7 @@ impl SharedRun {
             "model": self.model_path,
             "model_sha256": sha256(self.text.as_bytes()),
             "files": self.files,
+            "readings": self.readings.as_ref().map(|(name, content)| [name.clone(), BASE64.encode(content)]),
             "set": self.set,
             "settings": {
                 "coverage": coverage,
@@ -274,6 +291,13 @@ impl SharedRun {
             _ => None,
         };
         let each = |key: &str| header.get(key)?.as_array();
+        let readings = match header.get("readings")? {
+            Value::Null => None,
+            given => {
+                let (name, content) = pair(given)?;
+                Some((name, BASE64.decode(content).ok()?))
+            }
+        };
         let model_path = match header.get("model")? {
             Value::Null => None,
             path => Some(path.as_str()?.to_owned()),
@@ -283,6 +307,7 @@ impl SharedRun {
             model_path,
             text: text("text")?,
             files: each("files")?.iter().map(pair).collect::<Option<_>>()?,
+            readings,
             set: each("set")?
                 .iter()
                 .map(|set| Some(set.as_str()?.to_owned()))
@@ -475,6 +500,23 @@ mod tests {
         // the model of a run without files is in its parts
         let model = run().model(FileReader::default(), None).unwrap();
         assert_eq!(model.task.settings, run().settings);
+    }
+
+    /// The parts carry the readings that replaced those of the model.
+    #[test]
+    fn readings_come_back() {
+        let text = MODEL
+            .replace(r#""normal", "mean": 1, "std": 0.1"#, r#""readings", "values": [1, 2, 4]"#);
+        let today = ReadingsFile::of("today.csv", b"x\n3\n5\n7\n".to_vec()).unwrap();
+        let reader = FileReader::default().with_readings(Some(&today));
+        let file = reader.model_text("m.json", &text, Path::new(""), &[]).unwrap();
+        let run = SharedRun::new(&file, None, &[], &file.task.settings, 64 << 20);
+        let kind = SharedFileKind::Pass;
+        let part = SharedFileHeader::new(run, 1, b"a pass", kind).file(b"");
+        let found = shared_file(&part).unwrap().0.run;
+        let model = found.model(FileReader::default(), None).unwrap();
+        assert_eq!(model.task.rows[0].distributions[0].mean(), 5.0);
+        assert_eq!(model.files, file.files);
     }
 
     /// Every byte and every length counts.

@@ -5,7 +5,7 @@ use std::ops::Range;
 use super::DiagnosticKind;
 use super::diagnostics::Collector;
 use super::value_text::ValueOf;
-pub use gumption_columns::heading::{bare, enclosed, named, place_of, stated};
+pub use gumption_columns::heading::{bare, contradiction, enclosed, named, place_of, stated};
 use gumption_units::Unit;
 
 /// The name and the unit of a column; the unit may be defined in the file. See
@@ -23,10 +23,8 @@ pub fn check(
     declared: (&Unit, ValueOf),
 ) -> bool {
     let unit = |text: &str| log.unit(text).ok();
-    let contradiction = gumption_columns::heading::contradiction(unit, column, declared);
-    let is_same = contradiction.is_none();
-    contradiction
-        .into_iter()
-        .for_each(|found| log.report(place, DiagnosticKind::ColumnUnit(found)));
+    let other = contradiction(unit, column, declared);
+    let is_same = other.is_none();
+    other.into_iter().for_each(|found| log.report(place, DiagnosticKind::ColumnUnit(found)));
     is_same
 }

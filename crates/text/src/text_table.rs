@@ -156,6 +156,11 @@ impl TextTable {
         Place { source: self.source.clone(), span: self.header.clone() }
     }
 
+    /// The position of a heading.
+    pub fn heading(&self, column: usize) -> Place {
+        place_of_cell(&self.header(), column, self.separator)
+    }
+
     /// The position of a cell.
     pub fn place(&self, row: usize, column: usize) -> Place {
         let span = self.rows.get(row).map_or(self.header.clone(), |(span, _)| span.clone());

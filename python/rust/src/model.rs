@@ -5,7 +5,7 @@ use std::sync::Arc;
 use std::sync::atomic::AtomicBool;
 
 use gumption::command::Failure;
-use gumption::file::{ModelFile, Override, bytes};
+use gumption::file::{ModelFile, Override, ReadingsFile, bytes};
 use gumption::propagate::{Control, Evaluation, evaluate, warnings};
 use gumption::report::Provenance;
 use gumption::task::{
@@ -33,6 +33,8 @@ pub(crate) struct Source {
     allowed: Vec<PathBuf>,
     pub(crate) replaced: Vec<String>,
     accept_changed: bool,
+    /// The name and the content of a file of readings that replace those of the model.
+    readings: Option<(String, Vec<u8>)>,
     /// Where the file is, if it is one.
     pub(crate) path: Option<PathBuf>,
 }
@@ -159,7 +161,7 @@ fn trials(value: &Bound<'_, PyAny>) -> Option<Trials> {
 #[pymethods]
 impl Model {
     #[new]
-    #[pyo3(signature = (name, text, folder="", held=Vec::new(), allow=Vec::new(), replaced=Vec::new(), accept_changed=false))]
+    #[pyo3(signature = (name, text, folder="", held=Vec::new(), allow=Vec::new(), replaced=Vec::new(), accept_changed=false, readings=None))]
     #[allow(clippy::too_many_arguments)] // it is only called by the package
     fn new(
         py: Python<'_>,
@@ -170,14 +172,24 @@ impl Model {
         allow: Vec<PathBuf>,
         replaced: Vec<String>,
         accept_changed: bool,
+        readings: Option<(String, Vec<u8>)>,
     ) -> PyResult<Self> {
         let (name, text) = (name.to_owned(), text.to_owned());
         let folder = PathBuf::from(folder);
         // a text of another name than a file's is none
         let path = Some(Path::new(&name)).filter(|path| path.is_file()).map(Path::to_owned);
         let (allowed, of) = (allow, replaced);
-        let source =
-            Source { name, text, folder, held, allowed, replaced: of, accept_changed, path };
+        let source = Source {
+            name,
+            text,
+            folder,
+            held,
+            allowed,
+            replaced: of,
+            accept_changed,
+            readings,
+            path,
+        };
         let overrides = source.replaced.iter().map(|text| {
             let needed =
                 || argument(py, format!("`{text}`: NAME=VALUE or NAME.field=VALUE is needed"));
@@ -187,7 +199,10 @@ impl Model {
         let read = || {
             let files = application().files().allowing(&source.allowed);
             let files = files.accepting_changed_results(source.accept_changed);
-            let files = files.holding(&source.held);
+            let readings = source.readings.as_ref();
+            let readings = readings.map(|(name, content)| ReadingsFile::of(name, content.clone()));
+            let readings = readings.transpose()?;
+            let files = files.holding(&source.held).with_readings(readings.as_ref());
             files.model_text(&source.name, &source.text, &source.folder, &overrides)
         };
         // on threads of this process: a forked child has none of its parent's
@@ -215,9 +230,17 @@ impl Model {
         let folder = path.parent().unwrap_or(Path::new("")).display().to_string();
         let bytes = std::fs::File::open(&path).ok().and_then(|f| bytes::of(f, bytes::MOST).ok());
         match bytes.and_then(|bytes| bytes::text(&bytes).ok().map(|text| text.into_owned())) {
-            Some(text) => {
-                Self::new(py, &name, &text, &folder, Vec::new(), allow, replaced, accept_changed)
-            }
+            Some(text) => Self::new(
+                py,
+                &name,
+                &text,
+                &folder,
+                Vec::new(),
+                allow,
+                replaced,
+                accept_changed,
+                None,
+            ),
             // the reader of files says why, with its place
             None => Err(match application().files().model(&path, &[]) {
                 Err(found) => failed(py, &Failure::Diagnostics(found)),
@@ -230,9 +253,11 @@ impl Model {
     /// are there with the content that was read, so that it can be read again elsewhere.
     #[getter]
     fn source<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyTuple>> {
-        let Source { name, text, folder, held, allowed, replaced, accept_changed, .. } =
-            &*self.source;
-        let known = |name: &str| held.iter().any(|(held, _)| held == name);
+        let Source {
+            name, text, folder, held, allowed, replaced, accept_changed, readings, ..
+        } = &*self.source;
+        let is_readings = |name: &str| readings.as_ref().is_some_and(|(own, _)| own == name);
+        let known = |name: &str| is_readings(name) || held.iter().any(|(held, _)| held == name);
         let read = self.file.files.iter().filter(|(name, _)| !known(name));
         let held: Vec<(String, Bound<'_, pyo3::types::PyBytes>)> = held
             .iter()
@@ -240,7 +265,9 @@ impl Model {
             .map(|(name, bytes)| (name.clone(), pyo3::types::PyBytes::new(py, bytes)))
             .collect();
         let folder = folder.display().to_string();
-        (name, text, folder, held, allowed, replaced, accept_changed).into_pyobject(py)
+        let bytes = |content: &Vec<u8>| pyo3::types::PyBytes::new(py, content);
+        let readings = readings.as_ref().map(|(name, content)| (name.clone(), bytes(content)));
+        (name, text, folder, held, allowed, replaced, accept_changed, readings).into_pyobject(py)
     }
 
     #[getter]

@@ -318,6 +318,11 @@ def assumptions(
         model = from_dict(model)
     if isinstance(model, Model):
         model._refuse_function("assumptions")
+        if model._rust.source[7] is not None:
+            raise _gumption.ModelError(
+                "`assumptions` takes the readings of the model file, but this model has others; write them "
+                "into the file"
+            )
         replaced = [part for text in model._rust.source[5] for part in ("--set", text)]
         return Answer(["assumptions", "-", *options, *replaced], model._rust)
     return Answer(["assumptions", os.fspath(model), *options])
@@ -326,6 +331,7 @@ def assumptions(
 def certificate(
     file: str | os.PathLike[str] | Mapping[str, Any],
     *,
+    readings: str | os.PathLike[str] | None = None,
     trials: int | str | None = None,
     seed: int | None = None,
     coverage: float | None = None,
@@ -339,6 +345,8 @@ def certificate(
     ----------
     file : path-like or mapping
         The certificate file, or its content.
+    readings : path-like, optional
+        A file of readings that replace those of its model files.
     trials, seed, coverage, k, threads, allow_path : optional
         As on the command line.
 
@@ -348,8 +356,9 @@ def certificate(
     """
     path, text = _given(file)
     options = _options(
-        trials=trials, seed=seed, coverage=coverage, k=k, threads=threads, allow_path=allow_path
-    )
+        readings=readings, trials=trials, seed=seed, coverage=coverage, k=k, threads=threads,
+        allow_path=allow_path,
+    )  # fmt: skip
     return Certificate(["certificate", path, *options], None, text)
 
 

@@ -3,7 +3,12 @@
 from __future__ import annotations
 
 import io
+import math
+import os
 from collections.abc import Mapping
+from csv import writer as csv_writer
+from itertools import zip_longest
+from pathlib import Path
 from typing import Any
 
 import numpy as np
@@ -11,8 +16,9 @@ import numpy as np
 from gumption import _gumption
 from gumption._quantities import astropy_unit, is_astropy, is_pint, pint_unit
 
-#: What the table is called in messages and in the provenance.
+#: What the tables are called in messages and in the provenance.
 NAME = "conditions.csv"
+READINGS = "readings.csv"
 
 
 def columns(table: Any) -> dict[str, Any]:
@@ -76,6 +82,37 @@ def condition_file(table: Any, units: Mapping[str, str]) -> tuple[dict[str, Any]
     if len(lengths) > 1:
         raise _gumption.ModelError("the columns of conditions have different lengths")
     return {"file": NAME, "units": own}, {NAME: csv(values)}
+
+
+def readings_file(readings: Any) -> tuple[str, bytes]:
+    """The name and the content of a file of readings.
+
+    Parameters
+    ----------
+    readings : path-like, DataFrame or mapping
+        A file, or a column for each input. Columns of different length end with missing values, or are
+        sequences of different length.
+    """
+    if isinstance(readings, (str, os.PathLike)):
+        path = Path(readings)
+        try:
+            return path.name, path.read_bytes()
+        except OSError as error:
+            raise _gumption.ModelError(f"`{path}`: {error.strerror}") from error
+    found = columns(readings)
+    if not found:
+        raise _gumption.ModelError("the table of readings has no columns")
+    headings = [
+        f"{name} [{unit}]" if (unit := unit_of(column)) and not name.endswith("]") else name
+        for name, column in found.items()
+    ]
+    lists = [numbers(column).tolist() for column in found.values()]
+    cells = [["" if math.isnan(value) else repr(value) for value in values] for values in lists]
+    out = io.StringIO()
+    writer = csv_writer(out, lineterminator="\n")
+    writer.writerow(headings)
+    writer.writerows(zip_longest(*cells, fillvalue=""))
+    return READINGS, out.getvalue().encode()
 
 
 def frame_of(text: str) -> Any:

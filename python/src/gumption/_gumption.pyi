@@ -29,7 +29,9 @@ __all__ = [
 
 __version__: str
 
-_Source = tuple[str, str, str, list[tuple[str, bytes]], list[str], list[str], bool]
+_Source = tuple[
+    str, str, str, list[tuple[str, bytes]], list[str], list[str], bool, tuple[str, bytes] | None
+]
 
 class ModelError(ValueError):
     """A mistake in a model, another file or an argument.
@@ -102,6 +104,7 @@ class Model:
         allow: list[str] = ...,
         replaced: list[str] = ...,
         accept_changed: bool = False,
+        readings: tuple[str, bytes] | None = None,
     ) -> Model: ...
     @staticmethod
     def load(

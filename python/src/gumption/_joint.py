@@ -176,6 +176,8 @@ class Joint:
             raise _NotTogether(f"{title} is a function that could not be traced")
         if model._rust.source[5]:
             raise _NotTogether(f"estimates of {title} were replaced by `set`")
+        if model._rust.source[7] is not None:
+            raise _NotTogether(f"readings of {title} were replaced")
         if others := sorted(set(file) - _PLAIN):
             raise _NotTogether(f"{title} has `{others[0]}`")
         if result.rows > 1:

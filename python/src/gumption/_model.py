@@ -9,7 +9,7 @@ from contextlib import contextmanager
 from typing import TYPE_CHECKING, Any
 
 from gumption import _gumption
-from gumption._frames import condition_file
+from gumption._frames import condition_file, readings_file
 from gumption._joint import Joint, identity_of
 from gumption._quantities import as_input, as_known, shared, unit_of
 from gumption._result import Result
@@ -94,6 +94,7 @@ class Model:
         trials: int | float | str | None = None,
         seed: int | None = None,
         *,
+        readings: Any = None,
         coverage: float | None = None,
         k: float | None = None,
         digits: int | None = None,
@@ -124,6 +125,11 @@ class Model:
             digits need (JCGM 101, 7.9).
         seed : int, optional
             Seed of the random streams.
+        readings : path-like, DataFrame or mapping, optional
+            Readings that replace those of the model, as for ``--readings``: columns by the names of
+            inputs, ``"V"`` in the input's unit or ``"V [mV]"``, and a row for each reading. A column with
+            the name of a condition says to which point a row belongs. Sequences of a mapping may have
+            different lengths.
         coverage : float, optional
             Coverage probability.
         k : float, optional
@@ -185,23 +191,29 @@ class Model:
             "threads": threads, "memory": memory,
         }  # fmt: skip
         given = {name: value for name, value in options.items() if value is not None}
+        model = self if readings is None else self._with_readings(readings)
         if executor is None:
             if parts is not None or resume is not None or to_save:
                 raise _gumption.ModelError(
                     "`parts`, `resume` and `to_save` are about runs that an executor shares; give "
                     "`executor`"
                 )
-            return Result(self, given, self._evaluated(given, progress))
+            return Result(model, given, model._evaluated(given, progress))
         if parts is not None and parts < 1:
             raise _gumption.ModelError("`parts`: a whole number from 1 is needed")
         from gumption._executors import run_on
 
-        with self._bar(given, progress) as told:
+        with model._bar(given, progress) as told:
             run = run_on(
-                self, given, executor,
+                model, given, executor,
                 parts=parts, resume=resume, with_quantiles=to_save, told=told,
             )  # fmt: skip
-        return Result(self, given, run)
+        return Result(model, given, run)
+
+    def _with_readings(self, readings: Any) -> Model:
+        """The model with readings that replace its own."""
+        self._refuse_function("readings")
+        return self._derived(_gumption.Model(*self._rust.source[:7], readings_file(readings)), self._known)
 
     def _parts(self, options: dict[str, Any]) -> _gumption.Parts:
         """The run in parts."""
@@ -252,9 +264,10 @@ class Model:
         """
         self._refuse_function("set")
         named = [f"{name.replace('__', '.')}={value}" for name, value in values.items()]
-        name, text, folder, held, allow, replaced, accept = self._rust.source
+        name, text, folder, held, allow, replaced, accept, readings = self._rust.source
         all_ = [*replaced, *replacements, *named]
-        return self._derived(_gumption.Model(name, text, folder, held, allow, all_, accept), self._known)
+        made = _gumption.Model(name, text, folder, held, allow, all_, accept, readings)
+        return self._derived(made, self._known)
 
     def with_inputs(
         self,
@@ -313,10 +326,10 @@ class Model:
     def _with(
         self, file: Mapping[str, Any], held: Mapping[str, bytes], known: Mapping[str, Any] | None
     ) -> Model:
-        name, _, folder, _, allow, replaced, accept = self._rust.source
+        name, _, folder, _, allow, replaced, accept, readings = self._rust.source
         text = _json(file)
         files = list(held.items())
-        made = _gumption.Model(name, text, folder, files, allow, replaced, accept)
+        made = _gumption.Model(name, text, folder, files, allow, replaced, accept, readings)
         return self._derived(made, known)
 
     def _derived(self, rust: _gumption.Model, known: Mapping[str, Any] | None) -> Model:

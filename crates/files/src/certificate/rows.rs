@@ -4,13 +4,16 @@ use std::collections::BTreeMap;
 use std::ops::Range;
 use std::path::Path;
 
-use super::super::conditions::Conditions;
+use super::super::conditions::{Conditions, is_same};
 use super::super::constant_inputs::ConstantInputs;
 use super::super::context::Context;
 use super::super::keys;
 use super::super::model_file::{self, ModelFile};
+use super::super::model_readings::ModelReadings;
 use super::super::output_limits;
 use super::super::overrides::Override;
+use super::super::readings_file::NewReadings;
+use super::super::readings_of_models::{self, ModelOfReadings};
 use super::super::scopes::ConditionSet;
 use super::super::settings;
 use super::administrative::localized;
@@ -70,6 +73,8 @@ pub(super) struct CertificateRows<'a> {
     /// The model files without replacements, by name; `None` after a mistake.
     files: BTreeMap<String, Option<usize>>,
     models: Vec<(CertifiedModel, Task)>,
+    /// The readings of each model.
+    readings: Vec<ModelReadings>,
     evaluations: Vec<Asked>,
     lines: Vec<Line>,
     functions: Vec<StatedFunction>,
@@ -91,6 +96,7 @@ impl<'a> CertificateRows<'a> {
             asking,
             files: BTreeMap::new(),
             models: Vec::new(),
+            readings: Vec::new(),
             evaluations: Vec::new(),
             lines: Vec::new(),
             functions: Vec::new(),
@@ -233,7 +239,8 @@ impl<'a> CertificateRows<'a> {
             for warning in &file.warnings {
                 self.warnings.push(Warning { place: name.to_owned(), ..warning.clone() });
             }
-            let ModelFile { task, source, files, .. } = file;
+            let ModelFile { task, source, files, readings, .. } = file;
+            self.readings.push(readings);
             self.models.push((CertifiedModel { name: name.to_owned(), source, files }, task));
             self.models.len() - 1
         });
@@ -248,6 +255,8 @@ impl<'a> CertificateRows<'a> {
         overrides: &[Override],
     ) -> Result<Result<ModelFile, Diagnostics>, DiagnosticKind> {
         let (files, folder) = self.files_in;
+        let readings = files.readings.map(|new| NewReadings { model: Some(name), ..new });
+        let files = Context { readings, ..files };
         if !folder.holds(name) {
             return Ok(model_file::read(files, &folder.file(name)?, overrides));
         }
@@ -278,7 +287,9 @@ impl<'a> CertificateRows<'a> {
         };
         for diagnostic in diagnostics.0 {
             let here = &member.value.span;
-            if let Some(message) = is_no_object(&diagnostic.source.text) {
+            // a table that the model names is no JSON anyway
+            let is_model = diagnostic.source.name == self.files_in.1.shown(name);
+            if let Some(message) = is_no_object(&diagnostic.source.text).filter(|_| is_model) {
                 let message = format!("`{name}`: {message}");
                 self.log.report(here, DiagnosticKind::Unreadable { message });
                 return None;
@@ -471,8 +482,23 @@ impl<'a> CertificateRows<'a> {
         }
     }
 
+    /// Reports columns of a file of readings that belong to no model, or to more than one.
+    fn check_readings(&self) {
+        let Some(new) = self.files_in.0.readings else { return };
+        // of a model with errors nothing is known
+        if self.files.values().any(Option::is_none) {
+            return;
+        }
+        let mut models = Vec::new();
+        for ((model, task), readings) in self.models.iter().zip(&self.readings) {
+            models.push(ModelOfReadings { name: &model.name, task, readings });
+        }
+        readings_of_models::check(self.log, new.file, &models);
+    }
+
     /// What was read, with only those rows of conditions that are asked for; `None` after a mistake.
     pub(super) fn finish(mut self) -> Option<Read> {
+        self.check_readings();
         if !self.log.is_clean() {
             return None;
         }
@@ -493,9 +519,4 @@ impl<'a> CertificateRows<'a> {
         let models = models.into_iter().map(|(model, _)| model).collect();
         Some(Read { evaluations, lines, functions, models, warnings, places })
     }
-}
-
-/// Whether two values of a condition are the same but for rounding.
-fn is_same(a: f64, b: f64) -> bool {
-    (a - b).abs() <= 1e-9 * a.abs().max(b.abs())
 }

@@ -216,6 +216,8 @@ const FILES: Sentences = &[
     ("limits-moved", "the `limits` of `{name}` move along with its new estimate; where they stay, like the \
         limits of a concentration that cannot be negative, write `{name}.mean=...` for the value before they \
         cut"),
+    ("readings-replaced", "the readings of {names} are those of `{file}`"),
+    ("readings-kept", "`{file}` has no column for {names}: the readings of the model are kept"),
     ("readings-apart", "the readings of `{part}` have the mean {mean}, more than three of its standard \
         uncertainties from {estimate}, the stated estimate of `{name}`: only their scatter counts; leave the \
         estimate out to take their mean"),

@@ -232,6 +232,8 @@ const FILES: Sentences = &[
     ("limits-moved", "die `limits` von `{name}` verschieben sich mit dem neuen Schätzwert; wo sie bleiben, \
         wie bei einer Konzentration, die nicht negativ sein kann, steht `{name}.mean=...` für den Wert, \
         bevor sie begrenzen"),
+    ("readings-replaced", "die Ablesungen von {names} sind die von `{file}`"),
+    ("readings-kept", "`{file}` hat keine Spalte für {names}: die Ablesungen des Modells bleiben"),
     ("readings-apart", "die Ablesungen von `{part}` haben den Mittelwert {mean}, mehr als drei seiner \
         Standardunsicherheiten von {estimate} entfernt, dem Schätzwert, der für `{name}` angegeben ist: Nur \
         ihre Streuung zählt; ohne den angegebenen Schätzwert gilt ihr Mittelwert"),
