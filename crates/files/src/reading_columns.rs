@@ -407,11 +407,8 @@ impl<'a> ReadingColumns<'a> {
                 self.log.report_at(self.place_of(column), DiagnosticKind::Table { reason });
             }
         }
-        let taken = |columns: &[ReadingColumn]| -> Vec<String> {
-            let taken = columns.iter().filter(|column| column.is_taken.get());
-            taken.map(|column| column.heading.clone()).collect()
-        };
-        inputs.readings.taken = taken(&self.columns);
+        let taken = self.columns.iter().filter(|column| column.is_taken.get());
+        inputs.readings.taken = taken.map(|column| column.heading.clone()).collect();
         inputs.readings.conditions =
             self.conditions.iter().map(|column| column.heading.clone()).collect();
         let file = self.new.file.name();

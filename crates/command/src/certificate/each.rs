@@ -70,17 +70,16 @@ impl Certificate {
         for (stem, path) in &named {
             let mut name = PathBuf::from(stem).into_os_string();
             name.push(format!(".{}", self.answer.format.extension()));
-            let output = Some(out.join(name));
+            let output = out.join(name);
             let one = Self {
                 readings: TodaysReadings { file: Some(path.clone()) },
                 each: EachFile::default(),
-                answer: AnswerOptions { output: output.clone(), ..self.answer.clone() },
+                answer: AnswerOptions { output: Some(output.clone()), ..self.answer.clone() },
                 ..self.clone()
             };
             let shown = path.display();
             match one.execute(program) {
                 Ok(Exit::Done) => {
-                    let output = output.unwrap_or_default();
                     self.answer.note([format!("`{shown}`: `{}` is written", output.display())]);
                 }
                 Ok(other) => return Ok(other),
