@@ -77,7 +77,11 @@ impl Readings {
         if value < 0.0 {
             return Err(Invalid::NotPositive { parameter, value });
         }
-        let scale = standard_deviation / (count as f64).sqrt();
+        // the variance over n as of the readings themselves, so that the trials have the same bits
+        let scale = (standard_deviation.powi(2) / count as f64).sqrt();
+        if !(scale > 0.0 && scale.is_finite()) {
+            return Err(Invalid::ScatterOutOfRange { count });
+        }
         let mean = finite("mean", mean)?;
         Ok(Self { values: Vec::new(), count, mean, scale, together: 1, bayesian: false })
     }
