@@ -330,6 +330,43 @@ fn one_certificate_for_each_file() {
     assert!(said.contains("has no files of readings"), "{said}");
 }
 
+/// Certificates of several devices differ in their numbers, which the names of the files give.
+#[test]
+fn certificates_of_several_devices_have_numbers_of_their_own() {
+    let row = json!({"model": "grid.json", "output": "E"});
+    let certificate = |number: &str, serial: &str| json!({"number": number, "device": {"name": "d", "serial_number": serial}, "rows": [row]});
+    let place = Place::of(&[
+        ("grid.json", &gauge("1, 2", PRESSURES)),
+        ("same.json", &certificate("C-1", "{readings}").to_string()),
+        ("alike.json", &certificate("C-{readings}", "77").to_string()),
+        ("own.json", &certificate("C-{readings}", "{readings}").to_string()),
+    ]);
+    let folder = place.path().join("devices");
+    fs::create_dir(&folder).unwrap();
+    for name in ["0815.csv", "0816.csv"] {
+        fs::write(folder.join(name), POINTS).unwrap();
+    }
+    let each = |file: &str| {
+        let options =
+            ["--each", "devices", "--output-folder", "out", "--format", "json", "--quiet"];
+        place.ended(&[&["certificate", file][..], &options].concat())
+    };
+    for (file, key) in [("same.json", "`number`"), ("alike.json", "`device.serial_number`")] {
+        let (code, _, said) = each(file);
+        assert_eq!(code, 2);
+        assert!(said.contains(key) && said.contains("{readings}"), "{said}");
+        assert!(!place.path().join("out").exists());
+    }
+    assert_eq!(each("own.json").0, 0);
+    let text = fs::read_to_string(place.path().join("out/0816.json")).unwrap();
+    let found: Value = serde_json::from_str(&text).unwrap();
+    assert_eq!(found["administrative"]["number"], "C-0816");
+    assert_eq!(found["administrative"]["device"]["serial_number"], "0816");
+    let (code, _, said) = place.ended(&["certificate", "own.json"]);
+    assert_eq!(code, 2);
+    assert!(said.contains("own.json:1:") && said.contains("`--readings` or `--each`"), "{said}");
+}
+
 /// Results of two days are two quantities, and results of one file of readings are one: the difference
 /// of equal results has u = 0, of independent ones the root of the sum of the squares.
 #[test]

@@ -63,6 +63,7 @@ impl Certificate {
             return Err(Failure::Argument(reason.to_owned()));
         }
         let named = files_in(folder)?;
+        self.tells_certificates_apart(program, &named)?;
         fs::create_dir_all(out).map_err(|error| {
             Failure::System(format!("cannot make the folder `{}`: {error}", out.display()))
         })?;
@@ -103,6 +104,42 @@ impl Certificate {
             failed.join(", ")
         );
         Err(if is_of_system { Failure::System(message) } else { Failure::Argument(message) })
+    }
+}
+
+impl Certificate {
+    /// Checks that no two certificates have the same number or serial number.
+    fn tells_certificates_apart(
+        &self,
+        program: &CommandLine,
+        named: &BTreeMap<PathBuf, PathBuf>,
+    ) -> Result<(), Failure> {
+        let [Some(first), Some(second)] = [0, 1].map(|place| named.values().nth(place)) else {
+            return Ok(());
+        };
+        let of = |path: &PathBuf| {
+            let readings = TodaysReadings { file: Some(path.clone()) };
+            let one = Self { readings, each: EachFile::default(), ..self.clone() };
+            let file = one.read(program).ok()?;
+            let of = file.certificate.administrative;
+            Some([of.number, of.device.and_then(|device| device.serial_number)])
+        };
+        // errors of the files are reported where their certificates are made
+        let (Some(first), Some(second)) = (of(first), of(second)) else { return Ok(()) };
+        for (key, (a, b)) in
+            ["number", "device.serial_number"].iter().zip(first.iter().zip(&second))
+        {
+            if let Some(stated) = a.as_ref().filter(|_| a == b) {
+                return Err(Failure::Argument(format!(
+                    "`--each` makes several certificates, and `{key}` of all of them is `{}`; write \
+                     `{{readings}}` where the name of the file of readings is to stand, such as \
+                     `{}-{{readings}}`",
+                    plain(stated),
+                    plain(stated)
+                )));
+            }
+        }
+        Ok(())
     }
 }
 

@@ -10,7 +10,9 @@ use gumption_text::json::{Json, Member};
 use gumption_text::object::Object;
 
 /// Reads what the certificate says beside its results; `None` after a mistake.
-pub(super) fn read(root: &Object<'_>) -> Option<AdministrativeData> {
+///
+/// `readings` is the name of the file of readings, if there is one.
+pub(super) fn read(root: &Object<'_>, readings: Option<&str>) -> Option<AdministrativeData> {
     let place = named(
         root,
         "place",
@@ -27,8 +29,8 @@ pub(super) fn read(root: &Object<'_>) -> Option<AdministrativeData> {
     let days = days(root);
     Some(AdministrativeData {
         title: localized(root, "title"),
-        number: owned(root, "number"),
-        device: device(root),
+        number: named_by(root, "number", readings),
+        device: device(root, readings),
         customer: party(root, "customer"),
         laboratory: party(root, "laboratory"),
         responsible: owned(root, "responsible"),
@@ -46,6 +48,27 @@ pub(super) fn read(root: &Object<'_>) -> Option<AdministrativeData> {
 /// A text; one without a letter says nothing.
 pub(super) fn owned(object: &Object<'_>, key: &str) -> Option<String> {
     object.text(key).filter(|text| !text.trim().is_empty()).map(str::to_owned)
+}
+
+/// What stands for the name of the file of readings, without its ending.
+const READINGS: &str = "{readings}";
+
+/// A text that may name the file of readings.
+fn named_by(object: &Object<'_>, key: &str, readings: Option<&str>) -> Option<String> {
+    let text = owned(object, key)?;
+    if !text.contains(READINGS) {
+        return Some(text);
+    }
+    let Some(name) = readings else {
+        let place = object.get(key).map_or(object.place(), |member| &member.value.span);
+        let reason = format!(
+            "`{key}` names the file of readings, and there is none; give one by `--readings` or `--each`"
+        );
+        object.log.report(place, DiagnosticKind::Certificate { reason });
+        return None;
+    };
+    let stem = name.rsplit_once('.').map_or(name, |(stem, _)| stem);
+    Some(text.replace(READINGS, stem))
 }
 
 /// A text, or an object with a text for each language.
@@ -69,7 +92,7 @@ pub(super) fn localized(object: &Object<'_>, key: &str) -> Option<Localized> {
 }
 
 /// A device: a text, or an object.
-fn device(root: &Object<'_>) -> Option<Device> {
+fn device(root: &Object<'_>, readings: Option<&str>) -> Option<Device> {
     let member = root.get("device")?;
     if let Json::Text(name) = &member.value.value {
         return Some(Device { name: Localized::plain(name.clone()), ..Device::default() });
@@ -82,8 +105,8 @@ fn device(root: &Object<'_>) -> Option<Device> {
         manufacturer: owned(&object, "manufacturer"),
         model: owned(&object, "model"),
         condition: localized(&object, "condition"),
-        serial_number: owned(&object, "serial_number"),
-        customer_number: owned(&object, "customer_number"),
+        serial_number: named_by(&object, "serial_number", readings),
+        customer_number: named_by(&object, "customer_number", readings),
     })
 }
 

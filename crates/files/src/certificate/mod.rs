@@ -154,7 +154,8 @@ fn certificate<'a>(
     }
     keys::check(&root, keys::CERTIFICATE);
     check_format(&root, 1.0);
-    let administrative = administrative::read(&root);
+    let readings = files.readings.map(|new| new.file.name());
+    let administrative = administrative::read(&root, readings);
     let languages = languages(&root);
     let rounding = named(&root, "rounding", Rounding::named, &Rounding::ALL.map(Rounding::name));
     let mark =

@@ -65,7 +65,7 @@ fn days() -> Value {
 pub(crate) const CERTIFICATE: &[Key] = keys![
     "format" => object([("const", Value::from(1))]),
     "title" => referenced("localized", "Title; `Calibration certificate` unless given."),
-    "number" => text_of("Number of the certificate."),
+    "number" => text_of("Number of the certificate; `{readings}` stands for the name of the file of readings."),
     "device" => either("The device that was calibrated.", "device"),
     "customer" => either("The customer.", "party"),
     "laboratory" => either("The laboratory.", "party"),
@@ -241,8 +241,8 @@ pub(crate) const DEVICE: &[Key] = keys![
     "manufacturer" => text_of("Who made it."),
     "model" => text_of("Its model or type."),
     "condition" => referenced("localized", "Its condition when it was received."),
-    "serial_number" => text_of("Its serial number."),
-    "customer_number" => text_of("The customer's number for it."),
+    "serial_number" => text_of("Its serial number; `{readings}` stands for the name of the file of readings."),
+    "customer_number" => text_of("The customer's number for it; `{readings}` stands for the name of the file of readings."),
 ];
 
 fn device() -> Value {
