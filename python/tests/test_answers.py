@@ -227,6 +227,18 @@ class TestCommands:
         with pytest.raises(gu.ModelError, match="niqr"):
             gu.compare(columns, scheme="iso13528", sigma="nqr")
 
+    def test_statement(self) -> None:
+        """Three readings 0, 1, 2 and nothing else: u = 1/sqrt(3), k = 4.53 (t, 2, 95.45 %)."""
+        file = {"inputs": {"x": {"distribution": "readings", "values": [0, 1, 2]}},
+                "equations": {"y": "x - 0.1*x"}, "outputs": {"y": {}}}  # fmt: skip
+        model = gu.Model(file)
+        assert model.run(trials=20_000, statement="gum")["y"].gum.coverage_factor > 4.5
+        with pytest.raises(gu.ModelError, match="statement"):
+            model.run(trials=0, statement="both")
+        path = MODELS / "certificates" / "weights.json"
+        rows = gu.certificate(path, statement="monte-carlo", trials=50_000).to_dict()["rows"]
+        assert {row["basis"] for row in rows} == {"monte-carlo"}
+
     def test_certificate(self, tmp_path: Path) -> None:
         path = MODELS / "certificates" / "three_axis_accelerometer.json"
         certificate = gu.certificate(path, trials=0)

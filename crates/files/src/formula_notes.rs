@@ -32,6 +32,11 @@ pub(super) fn of_formulas(
     let results = units_by_name(of.outputs.outputs.iter().map(|output| &output.quantity));
     let mut numbers = KnownNumbers::new(&given, of, Some(scope));
     let mut found = Vec::new();
+    // a quantity with a dimension has another error
+    let is_share = |name: &str| {
+        let dimension = scope.get(name).and_then(|typing| typing.dimension);
+        dimension.is_none_or(|dimension| dimension.is_none())
+    };
     for (name, member, formula) in equations {
         let Some(formula) = formula else { continue };
         let result = results.get(name.as_str()).copied().filter(|_| of.check_units);
@@ -47,7 +52,7 @@ pub(super) fn of_formulas(
         let computed = formula.numbers(known).or(is_length.then_some(Numbers::Length));
         let computed = computed.filter(|_| of.check_units);
         for note in notes {
-            match (member, result.filter(|_| note.is_error)) {
+            match (member, result.filter(|_| note.is_error && is_share(name))) {
                 (Some(member), Some(unit)) => refuse(log, member, formula, note, (name, unit)),
                 _ => found.push(Warning::new(name, note.fact)),
             }
@@ -89,7 +94,8 @@ pub(super) fn of_formulas(
             let terms = terms(&by_name, &output.quantity.name);
             for (name, formula, note) in converted_terms(&terms, &numbers, &output.quantity) {
                 let member = equations.iter().find(|(of, ..)| of == name);
-                match member.and_then(|(_, member, _)| *member).filter(|_| note.is_error) {
+                let is_error = note.is_error && is_share(name);
+                match member.and_then(|(_, member, _)| *member).filter(|_| is_error) {
                     Some(member) => {
                         let Quantity { name, unit, .. } = &output.quantity;
                         refuse(log, member, formula, note, (name, unit));

@@ -64,8 +64,9 @@ mod tests {
         ] {
             assert_eq!(day(to).since(day(from)), days, "{from} {to}");
         }
-        for wrong in ["2026-3-2", "2026-02-29", "1900-02-29", "2026-13-01", "02.03.2026", "", "5 V"]
-        {
+        let of_month = ["2026-00-10", "2026-04-31", "2026-01-00", "0000-01-01"];
+        let wrong = ["2026-3-2", "2026-02-29", "1900-02-29", "2026-13-01", "02.03.2026", "", "5 V"];
+        for wrong in wrong.into_iter().chain(of_month).chain(["２026-1-1"]) {
             assert_eq!(Day::parse(wrong), None, "{wrong}");
         }
     }

@@ -332,6 +332,7 @@ def certificate(
     file: str | os.PathLike[str] | Mapping[str, Any],
     *,
     readings: str | os.PathLike[str] | None = None,
+    statement: str | None = None,
     trials: int | str | None = None,
     seed: int | None = None,
     coverage: float | None = None,
@@ -347,6 +348,8 @@ def certificate(
         The certificate file, or its content.
     readings : path-like, optional
         A file of readings that replace those of its model files.
+    statement : {"auto", "gum", "monte-carlo"}, optional
+        Which method gives the stated values and U.
     trials, seed, coverage, k, threads, allow_path : optional
         As on the command line.
 
@@ -356,8 +359,8 @@ def certificate(
     """
     path, text = _given(file)
     options = _options(
-        readings=readings, trials=trials, seed=seed, coverage=coverage, k=k, threads=threads,
-        allow_path=allow_path,
+        readings=readings, statement=statement, trials=trials, seed=seed, coverage=coverage, k=k,
+        threads=threads, allow_path=allow_path,
     )  # fmt: skip
     return Certificate(["certificate", path, *options], None, text)
 

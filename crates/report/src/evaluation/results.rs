@@ -117,7 +117,7 @@ fn verdict(settings: &Settings, stated: &Output, found: &OutputEvaluation) -> Ve
     let output = &stated.quantity;
     let mut said = vec![result(settings, output, found)];
     match &found.monte_carlo {
-        Some(figures) => said.push(comparison::verdict(output, found, figures, settings)),
+        Some(figures) => said.extend(comparison::verdict(output, found, figures, settings)),
         None => {
             let gum = found.gum.as_ref();
             let interval = gum

@@ -504,13 +504,28 @@ pub(crate) fn interval_text(output: &Quantity, gum: &Gum, digits: u32) -> Option
     Some(format!("coverage interval from {low} to {high}, by GUM alone"))
 }
 
-/// What JCGM 101, clause 8 says.
+/// What JCGM 101, clause 8 says; where it does not validate the GUM interval, why not, and which
+/// interval is stated.
 pub(crate) fn verdict(
     output: &Quantity,
     figures: &OutputEvaluation,
     monte_carlo: &MonteCarlo,
     settings: &Settings,
-) -> String {
+) -> Vec<String> {
+    let said = clause_8(output, figures, monte_carlo);
+    let gum_valid = figures.validation.map(|validation| validation.gum_valid);
+    match gum_valid {
+        Some(Some(false)) => {
+            let cause = cause(figures, settings.statement_tolerance);
+            let taken = taken(figures, monte_carlo, settings);
+            std::iter::once(said).chain(cause).chain([taken]).collect()
+        }
+        _ => vec![said],
+    }
+}
+
+/// The comparison of the two intervals.
+fn clause_8(output: &Quantity, figures: &OutputEvaluation, monte_carlo: &MonteCarlo) -> String {
     let Some(validation) = &figures.validation else {
         return "JCGM 101, clause 8: there is no GUM interval to compare; take the Monte Carlo one."
             .to_owned();
@@ -535,8 +550,7 @@ pub(crate) fn verdict(
             format!("JCGM 101, clause 8: the GUM interval is valid here: {ends}, within {limit}.")
         }
         Some(false) => format!(
-            "JCGM 101, clause 8: the GUM interval is not valid here: {ends}, beyond {limit}. {}",
-            cause(figures, monte_carlo, settings)
+            "JCGM 101, clause 8: the GUM interval is not valid here: {ends}, beyond {limit}."
         ),
         None => format!(
             "JCGM 101, clause 8: undecided whether the GUM interval is valid here: {ends}, too near \
@@ -547,38 +561,34 @@ pub(crate) fn verdict(
     }
 }
 
-/// Why clause 8 does not validate the GUM interval, and which interval is stated.
-fn cause(figures: &OutputEvaluation, monte_carlo: &MonteCarlo, settings: &Settings) -> String {
-    let allowed = settings.statement_tolerance;
-    let percent = |share: f64| significant(100.0 * share, 2);
-    let cause = figures.agreement.map(|agreement| {
-        let difference = percent(agreement.difference);
-        match agreement.cause(allowed) {
-            DifferenceCause::DegreesOfFreedom => format!(
-                "The cause is few degrees of freedom: with infinite ones the ends differ by \
-                 {difference} % of U."
-            ),
-            DifferenceCause::Shape if agreement.at_infinite_dof => format!(
-                "The cause is the shape of a distribution or a model that is not linear: also with \
-                 infinite degrees of freedom the ends differ by {difference} % of U."
-            ),
-            DifferenceCause::Shape => format!(
-                "The cause is the shape of a distribution or a model that is not linear: the ends \
-                 differ by {difference} % of U."
-            ),
-        }
-    });
-    let is_of_trials =
-        Stated::of(figures, settings).is_some_and(|stated| stated.basis == Basis::Shortest);
-    let taken = match is_of_trials {
-        true => {
-            let shortest = monte_carlo.stated_interval().shortest;
-            let kind = if shortest { "shortest" } else { "symmetric" };
-            format!("Take the {kind} Monte Carlo interval.")
-        }
-        false => "U is stated by the law of propagation (EA-4/02).".to_owned(),
-    };
-    cause.into_iter().chain([taken]).collect::<Vec<_>>().join(" ")
+/// Why clause 8 does not validate the GUM interval, given the difference that is allowed.
+fn cause(figures: &OutputEvaluation, allowed: f64) -> Option<String> {
+    let agreement = figures.agreement?;
+    let difference = significant(100.0 * agreement.difference, 2);
+    Some(match agreement.cause(allowed) {
+        DifferenceCause::DegreesOfFreedom => format!(
+            "The cause is few degrees of freedom: with infinite ones the ends differ by \
+             {difference} % of U."
+        ),
+        DifferenceCause::Shape if agreement.at_infinite_dof => format!(
+            "The cause is the shape of a distribution or a model that is not linear: also with \
+             infinite degrees of freedom the ends differ by {difference} % of U."
+        ),
+        DifferenceCause::Shape => format!(
+            "The cause is the shape of a distribution or a model that is not linear: the ends \
+             differ by {difference} % of U."
+        ),
+    })
+}
+
+/// Which interval is stated.
+fn taken(figures: &OutputEvaluation, monte_carlo: &MonteCarlo, settings: &Settings) -> String {
+    let stated = Stated::of(figures, settings);
+    if stated.is_none_or(|stated| stated.basis != Basis::Shortest) {
+        return "U is stated by the law of propagation.".to_owned();
+    }
+    let kind = if monte_carlo.stated_interval().shortest { "shortest" } else { "symmetric" };
+    format!("Take the {kind} Monte Carlo interval.")
 }
 
 /// How few the trials of saved results among the inputs are, where there are fewer than here.
