@@ -119,6 +119,12 @@ fn statement_is_a_decision_of_file_row_and_command_line() {
     let found = of_file(&name, &["--statement", "monte-carlo"]);
     let all: Vec<[&str; 4]> = found["rows"].as_array().expect("rows").iter().map(stated).collect();
     assert_eq!(all, [by_trials; 4]);
+    let said = gumption()
+        .args(["certificate", &name, "--statement", "monte-carlo", "--trials", "0"])
+        .assert()
+        .code(2);
+    let said = String::from_utf8_lossy(&said.get_output().stderr).into_owned();
+    assert!(said.contains("`statement` is `monte-carlo`, and there are no trials"), "{said}");
     // a model file has it too, and `run` states what a certificate states
     model["statement"] = json!("monte-carlo");
     model["conditions"]["p"]["values"] = json!([1]);

@@ -383,7 +383,7 @@ fn failure(file: &CertificateFile, failed: Failed) -> Failure {
             let of = |line: &Line| line.evaluation == *evaluation;
             file.certificate.lines.iter().position(of)
         }
-        Failed::NoResult { line } | Failed::NoUncertainty { line } => Some(*line),
+        Failed::NoResult { line } | Failed::NoUncertainty { line, .. } => Some(*line),
         _ => None,
     };
     let span = line.and_then(|line| file.places.get(line).cloned()).unwrap_or(0..0);

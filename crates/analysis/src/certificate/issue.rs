@@ -7,6 +7,7 @@ use super::correlations::{self, RowCorrelations};
 use super::statement::{self, Statement, StatementRules};
 use crate::certificate::contents::Certificate;
 use gumption_engine::propagate::{Control, Evaluation, EvaluationError, evaluate};
+use gumption_engine::task::StatementMethod;
 
 /// The results of a certificate.
 #[derive(Clone, Debug)]
@@ -60,6 +61,8 @@ pub enum Failed {
     NoUncertainty {
         /// The row, counted from 0.
         line: usize,
+        /// The method that is asked for.
+        statement: StatementMethod,
     },
 }
 
@@ -73,12 +76,22 @@ impl fmt::Display for Failed {
                  output",
                 line + 1
             ),
-            Self::NoUncertainty { line } => write!(
-                f,
-                "row {} has no expanded uncertainty: neither the law of propagation nor the trials \
-                 give one",
-                line + 1
-            ),
+            Self::NoUncertainty { line, statement } => {
+                let why = match statement {
+                    StatementMethod::Auto => {
+                        "neither the law of propagation nor the trials give one"
+                    }
+                    StatementMethod::Gum => {
+                        "`statement` is `gum`, and the law of propagation gives none; `monte-carlo` \
+                         states the trials"
+                    }
+                    StatementMethod::MonteCarlo => {
+                        "`statement` is `monte-carlo`, and there are no trials; `gum` states the law \
+                         of propagation"
+                    }
+                };
+                write!(f, "row {} has no expanded uncertainty: {why}", line + 1)
+            }
         }
     }
 }
@@ -113,7 +126,10 @@ pub fn issue(
             digits: certificate.digits,
         };
         let stated = statement::of(output, line.capability.as_ref(), wanted);
-        statements.push(stated.ok_or(Failed::NoUncertainty { line: number })?);
+        statements.push(stated.ok_or(Failed::NoUncertainty {
+            line: number,
+            statement: evaluation.settings.statement,
+        })?);
     }
     let raised = statements.iter().map(|statement| {
         let limit = statement.limit.filter(|limit| limit.raised);
