@@ -14,7 +14,7 @@ use crate::support::{gumption, output, root};
 const WORKED_DAY: &str = "models/certificates/three_axis_accelerometer.json";
 
 /// A folder with these files.
-fn folder(files: &[(&str, Value)]) -> TempDir {
+pub(crate) fn folder(files: &[(&str, Value)]) -> TempDir {
     let folder = tempfile::tempdir().expect("a folder");
     for (name, content) in files {
         fs::write(folder.path().join(name), content.to_string()).expect("a file");
@@ -22,7 +22,7 @@ fn folder(files: &[(&str, Value)]) -> TempDir {
     folder
 }
 
-fn path(folder: &Path, name: &str) -> String {
+pub(crate) fn path(folder: &Path, name: &str) -> String {
     folder.join(name).to_str().expect("a path").to_owned()
 }
 

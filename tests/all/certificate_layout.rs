@@ -4,25 +4,13 @@ use std::fs;
 use std::path::Path;
 
 use serde_json::{Value, json};
-use tempfile::TempDir;
 
+use crate::certificate::{folder, path};
 use crate::support::{gumption, output, root};
 
 /// The certificates of `models/certificates` with a layout.
 const LAID_OUT: [&str; 6] =
     ["accelerometer", "gauge_blocks", "multimeter", "pressure_gauge", "thermometer", "weights"];
-
-fn folder(files: &[(&str, Value)]) -> TempDir {
-    let folder = tempfile::tempdir().expect("a folder");
-    for (name, content) in files {
-        fs::write(folder.path().join(name), content.to_string()).expect("a file");
-    }
-    folder
-}
-
-fn path(folder: &Path, name: &str) -> String {
-    folder.join(name).to_str().expect("a path").to_owned()
-}
 
 fn of_file(name: &str, options: &[&str]) -> Value {
     let said = output(&[&["certificate", name, "--format", "json", "--quiet"], options].concat());
