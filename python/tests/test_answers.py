@@ -231,7 +231,7 @@ class TestCommands:
         """Three readings 0, 1, 2 and nothing else: u = 1/sqrt(3), k = 4.53 (t, 2, 95.45 %)."""
         file = {"inputs": {"x": {"distribution": "readings", "values": [0, 1, 2]}},
                 "equations": {"y": "x - 0.1*x"}, "outputs": {"y": {}}}  # fmt: skip
-        model = gu.Model(file)
+        model = gu.from_dict(file)
         assert model.run(trials=20_000, statement="gum")["y"].gum.coverage_factor > 4.5
         with pytest.raises(gu.ModelError, match="statement"):
             model.run(trials=0, statement="both")

@@ -146,7 +146,7 @@ pub fn is_satisfactory(normalized_error: f64) -> bool {
 /// The scores of a participant. Each one has the sign of the deviation, and is `None` if it is not
 /// defined.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Scores {
+pub struct ParticipantScores {
     /// The participant's result.
     pub participant: Participant,
     /// The deviation from the assigned value.
@@ -182,7 +182,7 @@ pub struct ProficiencyTest {
     /// How it was chosen.
     pub sigma_by: SigmaBy,
     /// The scores, in the order of the participants.
-    pub rows: Vec<Scores>,
+    pub rows: Vec<ParticipantScores>,
     /// What is worth knowing.
     pub notes: Vec<Fact>,
 }
@@ -196,7 +196,7 @@ impl ProficiencyTest {
 
     /// What the deciding score of a participant says: z', or z if the assigned value's uncertainty
     /// is negligible or not known. `None` without a score.
-    pub fn signal(&self, row: &Scores) -> Option<Signal> {
+    pub fn signal(&self, row: &ParticipantScores) -> Option<Signal> {
         let score = if self.is_by_z_prime() { row.z_prime } else { row.z };
         score.map(Signal::of)
     }
@@ -318,7 +318,7 @@ pub fn score(
         let over =
             |width: Option<f64>| width.filter(|width| *width > 0.0).map(|width| deviation / width);
         let of_difference = own.zip(of).map(|(own, of)| hypot(own, of));
-        Scores {
+        ParticipantScores {
             deviation,
             z: over(Some(sigma)),
             z_prime: over(of.filter(|_| sigma > 0.0).map(|of| hypot(sigma, of))),

@@ -4,7 +4,7 @@ use serde::Serialize;
 
 use crate::answer::pretty;
 use crate::words::{Note, notes};
-use gumption_analysis::compare::proficiency::{Scores, is_satisfactory};
+use gumption_analysis::compare::proficiency::{ParticipantScores, is_satisfactory};
 use gumption_analysis::compare::{ProficiencyTest, Signal};
 use gumption_engine::task::Warning;
 
@@ -73,7 +73,7 @@ pub(in crate::compare) fn json(test: &ProficiencyTest, unit: &str, warnings: &[W
     })
 }
 
-fn of_row<'a>(test: &ProficiencyTest, row: &'a Scores) -> Row<'a> {
+fn of_row<'a>(test: &ProficiencyTest, row: &'a ParticipantScores) -> Row<'a> {
     let name = |score: Option<f64>| score.map(|score| Signal::of(score).name());
     let stated = row.participant.uncertainty;
     Row {

@@ -14,14 +14,14 @@ use crate::number::{MISSING, exact, position, to, with_uncertainty};
 use crate::plain;
 use crate::sheet::Sheet;
 use gumption_analysis::compare::ProficiencyTest;
-use gumption_analysis::compare::proficiency::Scores;
+use gumption_analysis::compare::proficiency::ParticipantScores;
 
 /// Significant digits of the standard deviation to whose position results are printed, if they state
 /// no uncertainty.
 const DIGITS: u32 = 2;
 
 /// z, z', zeta and En.
-fn scores(row: &Scores) -> [Option<f64>; 4] {
+fn scores(row: &ParticipantScores) -> [Option<f64>; 4] {
     [row.z, row.z_prime, row.zeta, row.normalized_error]
 }
 
@@ -29,7 +29,7 @@ fn scores(row: &Scores) -> [Option<f64>; 4] {
 pub(super) fn records(test: &ProficiencyTest, unit: &str) -> Vec<Vec<String>> {
     let names = ["label", "value", "U", "k", "deviation", "z", "z_prime", "zeta", "en"];
     let names = names.into_iter().chain(["signal", "unit"]).map(str::to_owned).collect();
-    let record = |row: &Scores| {
+    let record = |row: &ParticipantScores| {
         let stated = row.participant.uncertainty;
         let numbers = [
             Some(row.participant.value),
@@ -51,19 +51,20 @@ pub(super) fn sheet(test: &ProficiencyTest, unit: &str) -> Sheet {
     let rows = &test.rows;
     let place = position(test.sigma, DIGITS);
     let printed = |value: f64| if test.sigma > 0.0 { to(value, place) } else { exact(value) };
-    let stated = |row: &Scores| {
+    let stated = |row: &ParticipantScores| {
         let stated = row.participant.uncertainty?;
         Some(with_uncertainty(row.participant.value, stated.expanded, DIGITS))
     };
     let mut sheet = Sheet::default();
     sheet.text("participant", rows.iter().map(|row| plain(&row.participant.label)));
-    let value = |row: &Scores| match stated(row) {
+    let value = |row: &ParticipantScores| match stated(row) {
         Some((value, _)) => value,
         None => printed(row.participant.value),
     };
     sheet.numbers("x", rows.iter().map(value));
     if rows.iter().any(|row| row.participant.uncertainty.is_some()) {
-        let expanded = |row: &Scores| stated(row).map_or_else(|| MISSING.to_owned(), |(_, u)| u);
+        let expanded =
+            |row: &ParticipantScores| stated(row).map_or_else(|| MISSING.to_owned(), |(_, u)| u);
         sheet.numbers("U(x)", rows.iter().map(expanded));
     }
     sheet.numbers("deviation", rows.iter().map(|row| printed(row.deviation)));
@@ -71,7 +72,7 @@ pub(super) fn sheet(test: &ProficiencyTest, unit: &str) -> Sheet {
         sheet.units("unit", rows.iter().map(|_| plain(unit)));
     }
     for (place, name) in ["z", "z'", "zeta", "En"].into_iter().enumerate() {
-        let of = |row: &Scores| scores(row)[place];
+        let of = |row: &ParticipantScores| scores(row)[place];
         if rows.iter().any(|row| of(row).is_some()) {
             let cell = |row| of(row).map_or_else(|| MISSING.to_owned(), score);
             sheet.numbers(name, rows.iter().map(cell));
