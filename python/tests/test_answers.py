@@ -236,7 +236,7 @@ class TestCommands:
         with pytest.raises(gu.ModelError, match="statement"):
             model.run(trials=0, statement="both")
         path = MODELS / "certificates" / "weights.json"
-        rows = gu.certificate(path, statement="monte-carlo", trials=50_000).to_dict()["rows"]
+        rows = gu.certificate(path, statement="monte-carlo", trials=50_000)["rows"]
         assert {row["basis"] for row in rows} == {"monte-carlo"}
 
     def test_certificate(self, tmp_path: Path) -> None:
