@@ -362,6 +362,7 @@ fn certificates_of_several_devices_have_numbers_of_their_own() {
     let found: Value = serde_json::from_str(&text).unwrap();
     assert_eq!(found["administrative"]["number"], "C-0816");
     assert_eq!(found["administrative"]["device"]["serial_number"], "0816");
+    assert_eq!(place.ended(&["check", "own.json"]).0, 0);
     let (code, _, said) = place.ended(&["certificate", "own.json"]);
     assert_eq!(code, 2);
     assert!(said.contains("own.json:1:") && said.contains("`--readings` or `--each`"), "{said}");

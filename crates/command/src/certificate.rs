@@ -118,6 +118,15 @@ impl Certificate {
         }
         let page = self.interactive.of(&self.answer)?;
         let mut file = self.read(program)?;
+        if let Some(key) = file.certificate.administrative.without_readings() {
+            let name = key.rsplit_once('.').map_or(key, |(_, name)| name);
+            let reason = format!(
+                "`{name}` names the file of readings, and there is none; give one by `--readings` or \
+                 `--each`"
+            );
+            let kind = DiagnosticKind::Certificate { reason };
+            return Err(Failure::Diagnostics(file.diagnostic_at(key, kind)));
+        }
         self.check_format(&file)?;
         let beside = self.beside()?;
         let [place, view] = output::open(

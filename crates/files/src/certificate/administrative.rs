@@ -3,7 +3,7 @@
 use super::super::keys;
 use super::{named, texts};
 use gumption_analysis::certificate::contents::{
-    AdministrativeData, Device, Language, Localized, Party, PerformanceLocation,
+    AdministrativeData, Device, Language, Localized, NAME_OF_READINGS, Party, PerformanceLocation,
 };
 use gumption_text::DiagnosticKind;
 use gumption_text::date::Day;
@@ -51,25 +51,12 @@ pub(super) fn owned(object: &Object<'_>, key: &str) -> Option<String> {
     object.text(key).filter(|text| !text.trim().is_empty()).map(str::to_owned)
 }
 
-/// What stands for the name of the file of readings, without its ending.
-const READINGS: &str = "{readings}";
-
 /// A text that may name the file of readings.
 fn named_by(object: &Object<'_>, key: &str, readings: Option<&str>) -> Option<String> {
     let text = owned(object, key)?;
-    if !text.contains(READINGS) {
-        return Some(text);
-    }
-    let Some(name) = readings else {
-        let place = object.get(key).map_or(object.place(), |member| &member.value.span);
-        let reason = format!(
-            "`{key}` names the file of readings, and there is none; give one by `--readings` or `--each`"
-        );
-        object.log.report(place, DiagnosticKind::Certificate { reason });
-        return None;
-    };
+    let Some(name) = readings else { return Some(text) };
     let stem = name.rsplit_once('.').map_or(name, |(stem, _)| stem);
-    Some(text.replace(READINGS, stem))
+    Some(text.replace(NAME_OF_READINGS, stem))
 }
 
 /// A text, or an object with a text for each language.

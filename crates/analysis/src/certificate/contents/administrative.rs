@@ -36,6 +36,24 @@ pub struct AdministrativeData {
     pub remarks: Vec<Localized>,
 }
 
+/// What stands for the name of the file of readings, without its ending, in the numbers of a
+/// certificate and of its device.
+pub const NAME_OF_READINGS: &str = "{readings}";
+
+impl AdministrativeData {
+    /// The key of a number that names the file of readings, if none was put in its place.
+    pub fn without_readings(&self) -> Option<&'static str> {
+        let device = self.device.as_ref();
+        let numbers = [
+            ("number", self.number.as_ref()),
+            ("device.serial_number", device.and_then(|device| device.serial_number.as_ref())),
+            ("device.customer_number", device.and_then(|device| device.customer_number.as_ref())),
+        ];
+        let names = |text: &&String| text.contains(NAME_OF_READINGS);
+        numbers.into_iter().find_map(|(key, text)| text.filter(names).map(|_| key))
+    }
+}
+
 /// A device.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct Device {

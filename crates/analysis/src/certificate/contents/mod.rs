@@ -5,7 +5,9 @@ mod form;
 mod layout;
 mod letterhead;
 
-pub use administrative::{AdministrativeData, Device, Party, PerformanceLocation};
+pub use administrative::{
+    AdministrativeData, Device, NAME_OF_READINGS, Party, PerformanceLocation,
+};
 pub use form::{DecimalMark, Language, Localized, Rounding};
 pub use layout::{ColumnContent, ColumnUnit, LayoutColumn, LayoutTable};
 pub use letterhead::{Letterhead, Picture, PictureFormat};
