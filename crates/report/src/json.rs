@@ -10,6 +10,7 @@ use super::fits::FitSide;
 use super::json_inputs::{InputsSide, RowInputs, varying};
 use super::regions::RegionSide;
 use super::subtotals::Subtotals;
+use gumption_engine::propagate::DifferenceCause;
 use gumption_engine::propagate::gum::{BudgetLine, CorrelationLine, Dof, Gum};
 use gumption_engine::propagate::monte_carlo::{MonteCarlo, NumericalError};
 use gumption_engine::propagate::{
@@ -687,8 +688,7 @@ impl Validation {
     fn of(evaluation: &OutputEvaluation, allowed: f64) -> Option<Self> {
         let validate::Validation { digits, tolerance, d_low, d_high, gum_valid } =
             evaluation.validation?;
-        let agreement = evaluation.agreement.filter(|_| gum_valid == Some(false));
-        let cause = agreement.map(|agreement| agreement.cause(allowed).name());
+        let cause = evaluation.difference_cause(allowed).map(DifferenceCause::name);
         Some(Self { digits, tolerance, d_low, d_high, gum_valid, cause })
     }
 }

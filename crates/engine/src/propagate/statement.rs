@@ -1,6 +1,7 @@
 //! What is stated of an output: value, expanded uncertainty and coverage factor, by the method that
 //! is to be believed.
 
+use super::agreement::DifferenceCause;
 use super::exact::Noiseless;
 use super::figures::OutputEvaluation;
 use super::gum::{Dof, Gum};
@@ -168,6 +169,14 @@ impl OutputEvaluation {
     pub fn agrees(&self, share: f64) -> bool {
         let is_refuted = self.validation.is_some_and(|v| v.gum_valid != Some(true));
         !is_refuted || self.agreement.is_some_and(|agreement| agreement.is_within(share))
+    }
+
+    /// Why clause 8 does not validate the interval of the law of propagation, given the difference
+    /// that is allowed, relative to the expanded uncertainty; `None` where it does or is undecided,
+    /// or where nothing was compared.
+    pub fn difference_cause(&self, allowed: f64) -> Option<DifferenceCause> {
+        let is_refuted = self.validation.is_some_and(|v| v.gum_valid == Some(false));
+        Some(self.agreement.filter(|_| is_refuted)?.cause(allowed))
     }
 
     /// Where the output lies by its trials, and the numerical standard error of that (0 of what no seed

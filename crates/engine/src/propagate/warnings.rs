@@ -351,16 +351,11 @@ fn of_statement(
     output: &OutputEvaluation,
 ) -> Option<Fact> {
     let settings = &task.settings;
-    let is_refuted = output.validation.is_some_and(|v| v.gum_valid == Some(false));
-    let (Some(agreement), Some(stated), true) =
-        (output.agreement, Stated::of(output, settings), is_refuted)
-    else {
-        return None;
-    };
+    let cause = output.difference_cause(settings.statement_tolerance)?;
+    let (agreement, stated) = (output.agreement?, Stated::of(output, settings)?);
     let percent = |share: f64| Argument::number(significant(100.0 * share, 2));
     let (difference, allowed) =
         (percent(agreement.difference), percent(settings.statement_tolerance));
-    let cause = agreement.cause(settings.statement_tolerance);
     Some(match (settings.statement, stated.basis == Basis::Shortest, cause) {
         (StatementMethod::Gum, ..) => fact!("stated-by.gum", name, at),
         (StatementMethod::MonteCarlo, ..) => fact!("stated-by.monte-carlo", name, at),

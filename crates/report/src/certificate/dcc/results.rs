@@ -261,7 +261,7 @@ fn probability(row: &StatedRow<'_>) -> String {
 fn distribution(row: &StatedRow<'_>) -> Option<&'static str> {
     let is_refuted = row.found.validation.is_some_and(|v| v.gum_valid == Some(false));
     let allowed = row.asked.task.settings.statement_tolerance;
-    let cause = row.found.agreement.map(|agreement| agreement.cause(allowed));
+    let cause = row.found.difference_cause(allowed);
     let is_contradicted = is_refuted && cause != Some(DifferenceCause::DegreesOfFreedom);
     match row.statement.basis {
         Basis::Normal | Basis::Student if is_contradicted && !row.is_raised() => None,
