@@ -111,21 +111,11 @@ pub(super) fn head(report: &CertificateReport<'_>) -> Option<Head> {
 
 /// Name, street, city, and ways of contact, line by line.
 fn address_block(party: &Party) -> Vec<String> {
-    let pair = |a: &Option<String>, b: &Option<String>| {
-        let words: Vec<&str> = [a, b].into_iter().flatten().map(String::as_str).collect();
-        words.join(" ")
-    };
-    let city = [pair(&party.post_code, &party.city), party.country.clone().unwrap_or_default()];
-    let city: Vec<String> = city.into_iter().filter(|part| !part.is_empty()).collect();
     let contact: Vec<&str> =
         [&party.phone, &party.email].into_iter().flatten().map(String::as_str).collect();
-    let lines = [
-        party.name.clone(),
-        pair(&party.street, &party.street_number),
-        city.join(", "),
-        contact.join(", "),
-    ];
-    lines.iter().map(|line| plain(line)).filter(|line| !line.is_empty()).collect()
+    let address = party.address_lines().into_iter();
+    let lines = std::iter::once(party.name.clone()).chain(address).chain([contact.join(", ")]);
+    lines.map(|line| plain(&line)).filter(|line| !line.is_empty()).collect()
 }
 
 /// The same for programs, by the keys of the certificate file, whatever its languages.

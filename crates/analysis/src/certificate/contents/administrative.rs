@@ -97,16 +97,19 @@ pub struct Party {
 impl Party {
     /// The address on one line; empty if there is none.
     pub fn address(&self) -> String {
-        let pair = |a: &Option<String>, b: &Option<String>| {
-            let words: Vec<&str> = [a, b].into_iter().flatten().map(String::as_str).collect();
-            words.join(" ")
+        self.address_lines().join(", ")
+    }
+
+    /// The address line by line: the street, then city and country.
+    pub fn address_lines(&self) -> Vec<String> {
+        let joined = |words: [&Option<String>; 2], between: &str| {
+            let words: Vec<&str> = words.into_iter().flatten().map(String::as_str).collect();
+            words.join(between)
         };
-        let parts = [
-            pair(&self.street, &self.street_number),
-            pair(&self.post_code, &self.city),
-            self.country.clone().unwrap_or_default(),
-        ];
-        parts.into_iter().filter(|part| !part.is_empty()).collect::<Vec<_>>().join(", ")
+        let street = joined([&self.street, &self.street_number], " ");
+        let city = joined([&self.post_code, &self.city], " ");
+        let city = joined([&Some(city).filter(|city| !city.is_empty()), &self.country], ", ");
+        [street, city].into_iter().filter(|line| !line.is_empty()).collect()
     }
 }
 
