@@ -10,6 +10,7 @@ use super::{Certificate, CertificateFormat};
 use crate::exit::say;
 use crate::options::{AnswerOptions, TodaysReadings};
 use crate::{CommandLine, Exit, Failure};
+use gumption_analysis::certificate::contents::NAME_OF_READINGS;
 use gumption_report::plain;
 
 /// A folder of files of readings, and the folder of their certificates.
@@ -63,7 +64,9 @@ impl Certificate {
             return Err(Failure::Argument(reason.to_owned()));
         }
         let named = files_in(folder)?;
-        self.tells_certificates_apart(program, &named)?;
+        if named.len() > 1 {
+            self.tells_certificates_apart(program)?;
+        }
         fs::create_dir_all(out).map_err(|error| {
             Failure::System(format!("cannot make the folder `{}`: {error}", out.display()))
         })?;
@@ -108,34 +111,20 @@ impl Certificate {
 }
 
 impl Certificate {
-    /// Checks that no two certificates have the same number or serial number.
-    fn tells_certificates_apart(
-        &self,
-        program: &CommandLine,
-        named: &BTreeMap<PathBuf, PathBuf>,
-    ) -> Result<(), Failure> {
-        let [Some(first), Some(second)] = [0, 1].map(|place| named.values().nth(place)) else {
-            return Ok(());
-        };
-        let of = |path: &PathBuf| {
-            let readings = TodaysReadings { file: Some(path.clone()) };
-            let one = Self { readings, each: EachFile::default(), ..self.clone() };
-            let file = one.read(program).ok()?;
-            let of = file.certificate.administrative;
-            Some([of.number, of.device.and_then(|device| device.serial_number)])
-        };
+    /// Checks that no two certificates have the same number or serial number: each stated one names
+    /// its file of readings.
+    fn tells_certificates_apart(&self, program: &CommandLine) -> Result<(), Failure> {
         // errors of the files are reported where their certificates are made
-        let (Some(first), Some(second)) = (of(first), of(second)) else { return Ok(()) };
-        for (key, (a, b)) in
-            ["number", "device.serial_number"].iter().zip(first.iter().zip(&second))
-        {
-            if let Some(stated) = a.as_ref().filter(|_| a == b) {
+        let Ok(file) = self.read(program) else { return Ok(()) };
+        let of = file.certificate.administrative;
+        let serial_number = of.device.and_then(|device| device.serial_number);
+        for (key, stated) in [("number", of.number), ("device.serial_number", serial_number)] {
+            if let Some(stated) = stated.filter(|stated| !stated.contains(NAME_OF_READINGS)) {
+                let stated = plain(&stated);
                 return Err(Failure::Argument(format!(
-                    "`--each` makes several certificates, and `{key}` of all of them is `{}`; write \
-                     `{{readings}}` where the name of the file of readings is to stand, such as \
-                     `{}-{{readings}}`",
-                    plain(stated),
-                    plain(stated)
+                    "`--each` makes several certificates, and `{key}` of all of them is `{stated}`; write \
+                     `{NAME_OF_READINGS}` where the name of the file of readings is to stand, such as \
+                     `{stated}-{NAME_OF_READINGS}`"
                 )));
             }
         }
