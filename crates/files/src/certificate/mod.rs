@@ -138,7 +138,6 @@ impl Asking {
             settings.digits = self.digits;
         }
         settings.coverage = self.coverage.unwrap_or(settings.coverage);
-        settings.statement = self.statement.unwrap_or(settings.statement);
         settings.statement_tolerance =
             self.statement_tolerance.unwrap_or(settings.statement_tolerance);
     }
