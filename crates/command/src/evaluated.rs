@@ -16,7 +16,7 @@ use gumption_engine::task::{Task, Trials};
 use gumption_files::ModelFile;
 use gumption_report as report;
 use gumption_report::words;
-use gumption_report::{BudgetColumn, EvaluationReport, Shown};
+use gumption_report::{BudgetColumn, EvaluationReport, Extent, Shown};
 
 /// How to give the answer of an evaluation, and what to write besides it.
 #[derive(Debug, Args)]
@@ -28,6 +28,12 @@ pub(super) struct Evaluated {
     /// More columns of the budget in a table: names separated by commas
     #[arg(long, value_name = "LIST", value_delimiter = ',', value_parser = options::columns())]
     columns: Vec<BudgetColumn>,
+    /// Print only the result of each output, on one line
+    #[arg(long, conflicts_with_all = ["full", "columns", "histogram"])]
+    brief: bool,
+    /// Print all budgets, both methods side by side, distributions, the model and the settings
+    #[arg(long)]
+    full: bool,
     /// Draw the distribution of each output below the table, with the coverage intervals
     #[arg(long)]
     histogram: bool,
@@ -71,6 +77,15 @@ impl Evaluated {
         Ok(())
     }
 
+    /// How much a text page shows.
+    fn extent(&self) -> Extent {
+        match (self.brief, self.full) {
+            (true, _) => Extent::Brief,
+            (_, true) => Extent::Full,
+            _ => Extent::Usual,
+        }
+    }
+
     /// Whether a result file is to be written.
     pub(super) fn saves(&self) -> bool {
         self.save.is_some()
@@ -110,6 +125,7 @@ impl Evaluated {
             histograms: &histograms,
             convergence: &convergence,
             replaced,
+            extent: self.extent(),
             language: words::Language::English,
             model: text,
         };
@@ -189,6 +205,12 @@ impl Evaluated {
                  and JSON have all columns, CSV has no budget",
             );
         }
+        if self.extent() != Extent::Usual && format != Page::Table {
+            return refuse(
+                "`--brief` and `--full` are of the text page (`--format table`); the other formats \
+                 have everything",
+            );
+        }
         if !self.histogram {
             return Ok(());
         }
@@ -221,6 +243,7 @@ impl Evaluated {
         let rows = match self.answer.format {
             Page::Html | Page::Xlsx if evaluation.rows.len() == 1 => 1,
             Page::Table if self.histogram => evaluation.rows.len(),
+            Page::Table if self.full && evaluation.rows.len() == 1 => 1,
             _ => 0,
         };
         let mut all = Vec::with_capacity(rows);

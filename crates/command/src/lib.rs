@@ -201,7 +201,7 @@ impl CommandLine {
         if !arguments.command.idles() {
             freed_memory::keep();
         }
-        match gumption_report::within_width(paint::width(), || self.execute(arguments.command)) {
+        match gumption_report::within_screen(paint::screen(), || self.execute(arguments.command)) {
             Ok(exit) => exit.code(),
             Err(failure) => failure.report(),
         }

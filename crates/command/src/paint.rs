@@ -4,6 +4,7 @@ use std::io::{self, IsTerminal};
 
 use anstream::{AutoStream, ColorChoice};
 use clap::ValueEnum;
+use gumption_report::Screen;
 
 /// Columns of an answer that does not go to a terminal.
 const PIPED: usize = 100;
@@ -31,12 +32,26 @@ impl When {
     }
 }
 
-/// Columns of the page: the width of the terminal.
-pub(super) fn width() -> usize {
+/// The screen that pages are drawn for: the terminal, which shows the letters of print if its locale
+/// is one of UTF-8.
+pub(super) fn screen() -> Screen {
     if !io::stdout().is_terminal() {
-        return PIPED;
+        return Screen { columns: PIPED, shows_print: false };
     }
-    terminal_size::terminal_size().map_or(PIPED, |(width, _)| usize::from(width.0))
+    let columns =
+        terminal_size::terminal_size().map_or(PIPED, |(width, _)| usize::from(width.0));
+    Screen { columns, shows_print: has_utf8() }
+}
+
+/// Whether the locale has UTF-8: the first variable that is set decides (POSIX, 8.2). Consoles of
+/// Windows have it.
+fn has_utf8() -> bool {
+    let is_set = |name: &&str| std::env::var_os(name).is_some_and(|value| !value.is_empty());
+    let Some(name) = ["LC_ALL", "LC_CTYPE", "LANG"].iter().find(is_set) else {
+        return cfg!(windows);
+    };
+    let value = std::env::var(name).unwrap_or_default().to_ascii_lowercase();
+    value.contains("utf-8") || value.contains("utf8")
 }
 
 /// Whether standard output takes colours.
@@ -51,12 +66,13 @@ const RED: &str = "\u{1b}[31m";
 const PLAIN: &str = "\u{1b}[0m";
 
 /// Verdicts and their colours. Longer words precede those that they contain.
-const VERDICTS: [(&str, &str); 8] = [
-    ("GUM interval is not valid here", YELLOW),
-    ("GUM interval is valid here", GREEN),
+const VERDICTS: [(&str, &str); 9] = [
+    ("GUM interval is not validated", YELLOW),
+    ("GUM interval not validated", YELLOW),
+    ("GUM interval is validated", GREEN),
     ("Decision: accepted", GREEN),
     ("Decision: rejected", RED),
-    ("undecided whether the GUM interval is valid", YELLOW),
+    ("undecided whether the GUM interval is validated", YELLOW),
     ("  not valid", YELLOW),
     (" not compatible", RED),
     ("There is a gap", BOLD),

@@ -8,6 +8,7 @@ use crate::number::{
     MISSING, degrees_of_freedom, exact, justified, position, rounded, significant, to,
     with_uncertainty,
 };
+use crate::printed::on_terminal;
 use crate::sheet::Sheet;
 use crate::{Grid, plain, table::width, wrapped};
 use gumption_analysis::diff::{
@@ -148,12 +149,12 @@ pub fn json([a, b]: [&str; 2], difference: &Difference) -> String {
 
 /// The same in GitHub Flavored Markdown.
 pub fn markdown(names: [&str; 2], difference: &Difference) -> String {
-    document::markdown(&paper(names, difference))
+    document::markdown(|| paper(names, difference))
 }
 
 /// The same as one HTML file that needs nothing else.
 pub fn html(names: [&str; 2], difference: &Difference) -> String {
-    document::html(&paper(names, difference))
+    document::html(|| paper(names, difference))
 }
 
 /// What changed as a document.
@@ -201,18 +202,20 @@ fn place(difference: &Difference, row: &RowDifference) -> String {
 
 /// The page for a terminal. Inputs that did not change are left out.
 pub fn table([a, b]: [&str; 2], difference: &Difference) -> String {
-    let mut page = vec![wrapped(&format!("from {a} to {b}"))];
-    if !difference.changes.is_empty() {
-        page.push(difference.changes.iter().map(|change| wrapped(change)).collect());
-    }
-    for row in &difference.rows {
-        let at = place(difference, row);
-        page.extend(row.outputs.iter().map(|output| section(output, &at)));
-    }
-    if difference.rows.iter().all(|row| row.outputs.is_empty()) {
-        page.push(wrapped(NOTHING_IN_COMMON));
-    }
-    page.join("\n")
+    on_terminal(|| {
+        let mut page = vec![wrapped(&format!("from {a} to {b}"))];
+        if !difference.changes.is_empty() {
+            page.push(difference.changes.iter().map(|change| wrapped(change)).collect());
+        }
+        for row in &difference.rows {
+            let at = place(difference, row);
+            page.extend(row.outputs.iter().map(|output| section(output, &at)));
+        }
+        if difference.rows.iter().all(|row| row.outputs.is_empty()) {
+            page.push(wrapped(NOTHING_IN_COMMON));
+        }
+        page.join("\n")
+    })
 }
 
 fn section(output: &OutputDifference, at: &str) -> String {

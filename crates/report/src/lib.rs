@@ -21,6 +21,7 @@ pub mod number;
 pub mod observe;
 pub mod plan;
 mod plot;
+mod printed;
 pub mod reference;
 mod regions;
 mod samples;
@@ -37,7 +38,7 @@ pub use answer::{on_one_line, pretty};
 pub use budget_template::budget_template;
 pub use csv::{csv, of_records as csv_of_records, write_csv};
 pub use evaluation::{
-    MOST_RESULTS, OutputParts, PageChoice, PageParts, ResultStatement, Shown, html, input_picture,
+    Extent, MOST_RESULTS, OutputParts, PageChoice, PageParts, ResultStatement, Shown, html, input_picture,
     latex, markdown, page_parts, table, xlsx,
 };
 pub use html::{FigureSize, interactive, interactive_script_digest, page_style};
@@ -45,7 +46,7 @@ pub use json::{json, write_json};
 pub use samples::TrialsForm;
 pub use saved::{SaveError, saved, saved_result};
 pub(crate) use table::conditions_text;
-pub use table::{BudgetColumn, Grid, grouped, plain, within_width, wrapped};
+pub use table::{BudgetColumn, Grid, Screen, grouped, plain, within_screen, within_width, wrapped};
 
 use gumption_engine::propagate::Evaluation;
 use gumption_engine::task::{Task, Warning};

@@ -143,7 +143,8 @@ pub fn coefficient(r: f64) -> String {
 pub fn align<S: AsRef<str>>(texts: &[S]) -> Vec<String> {
     let split = |text: &S| {
         let text = text.as_ref();
-        let whole = text.find(['.', ',', 'e']).unwrap_or(text.len());
+        let whole = text.find(['.', ',', 'e']).or_else(|| text.find("\u{202f}×"));
+        let whole = whole.unwrap_or(text.len());
         (text[..whole].chars().count(), text[whole..].chars().count())
     };
     let sizes: Vec<(usize, usize)> = texts.iter().map(split).collect();

@@ -99,6 +99,13 @@ impl Sheet {
         }
     }
 
+    /// Adds a row of cells, one for each column.
+    pub(crate) fn append(&mut self, cells: impl IntoIterator<Item = String>) {
+        for (column, cell) in self.columns.iter_mut().zip(cells) {
+            column.cells.push(cell);
+        }
+    }
+
     /// Adds a column of a kind.
     pub(crate) fn push(
         &mut self,
@@ -122,7 +129,7 @@ impl Sheet {
     pub(crate) fn with_commas(mut self) -> Self {
         for column in self.columns.iter_mut().filter(|column| column.kind == ColumnKind::Numbers) {
             for cell in &mut column.cells {
-                *cell = super::document::with_comma(cell);
+                *cell = super::printed::with_comma(cell);
             }
         }
         self

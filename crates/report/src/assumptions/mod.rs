@@ -22,12 +22,12 @@ use gumption_engine::task::{Task, Warning};
 
 /// The audit in GitHub Flavored Markdown.
 pub fn markdown(report: &AuditReport<'_>) -> String {
-    look::markdown(&document::of(report))
+    look::markdown(|| document::of(report))
 }
 
 /// The audit as one HTML file with figures that needs nothing else.
 pub fn html(report: &AuditReport<'_>) -> String {
-    look::html(&document::of(report))
+    look::html(|| document::of(report))
 }
 
 /// Everything that a report of an audit may show.

@@ -5,10 +5,10 @@ use super::CertificateReport;
 use super::layout;
 use super::sentences::{SentenceLanguage, about};
 use super::stated::{self, StatedRow};
-use super::units::printed;
 use super::words::Words;
 use crate::number::{Percent, exact, position, significant, to};
 use crate::plain;
+use crate::printed::with_symbols;
 use crate::table::comparison::percent_of;
 use crate::table::in_unit;
 use gumption_engine::decimal::{to_15_digits, to_digits};
@@ -132,7 +132,7 @@ fn with_prior(
     let share = found.without_prior?;
     let output = row.asked.task.model.outputs.get(row.line.output)?;
     let prior = output.prior.as_deref()?;
-    let unit = printed(&row.quantity.unit);
+    let unit = with_symbols(&row.quantity.unit);
     let number = |value: f64| of.in_marks(&in_unit(&exact(to_15_digits(value)), &unit));
     let about = words
         .prior
@@ -152,7 +152,8 @@ fn unrounded(row: &StatedRow<'_>, found: &Conformity, of: SentenceLanguage) -> O
     }
     let limits = [Some(&found.tolerance), found.acceptance.as_ref()].into_iter().flatten();
     let limits: Vec<&Tolerance> = limits.collect();
-    let value = in_unit(&exact(telling(found.estimate, &limits)), &printed(&row.quantity.unit));
+    let value =
+        in_unit(&exact(telling(found.estimate, &limits)), &with_symbols(&row.quantity.unit));
     Some(of.words().unrounded.replace("{value}", &of.in_marks(&value)))
 }
 
@@ -184,7 +185,7 @@ fn rule(row: &StatedRow<'_>, found: &Conformity, of: SentenceLanguage) -> String
     let words = of.words();
     if let (Some(factor), Some(width)) = (found.guard_factor, found.guard_band) {
         let place = position(width, GUARD_DIGITS);
-        let guard = of.in_marks(&in_unit(&to(width, place), &printed(&row.quantity.unit)));
+        let guard = of.in_marks(&in_unit(&to(width, place), &with_symbols(&row.quantity.unit)));
         let (said, accepted) = match &found.acceptance {
             Some(to) => (words.multiple, of.in_marks(&limits(row, to, place, words))),
             None => (words.too_wide, String::new()),
@@ -206,7 +207,7 @@ fn rule(row: &StatedRow<'_>, found: &Conformity, of: SentenceLanguage) -> String
         return filled(words.never);
     };
     let place = position(width, GUARD_DIGITS);
-    let guard = of.in_marks(&in_unit(&to(width, place), &printed(&row.quantity.unit)));
+    let guard = of.in_marks(&in_unit(&to(width, place), &with_symbols(&row.quantity.unit)));
     let accepted = of.in_marks(&limits(row, acceptance, place, words));
     filled(words.guarded).replace("{guard}", &guard).replace("{limits}", &accepted)
 }
@@ -220,7 +221,7 @@ fn limits(row: &StatedRow<'_>, of: &Tolerance, place: Option<i32>, words: &Words
         (_, None) => lower,
         (None, Some(_)) => upper,
     };
-    let unit = match plain(printed(&row.quantity.unit).text()).as_str() {
+    let unit = match plain(with_symbols(&row.quantity.unit).text()).as_str() {
         "" | "1" => String::new(),
         unit => format!(" {unit}"),
     };

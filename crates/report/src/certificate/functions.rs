@@ -2,12 +2,12 @@
 
 use super::CertificateReport;
 use super::sentences::SentenceLanguage;
-use super::units::printed;
 use super::words::{beside, stacked};
 use crate::document::{Block, Document};
 use crate::fits::{self, STATED};
 use crate::number::{exact, rounded, with_uncertainty};
 use crate::plain;
+use crate::printed::with_symbols;
 use crate::sheet::{Figure, Sheet};
 use gumption_analysis::certificate::contents::{Language, StatedFunction};
 use gumption_analysis::certificate::rounding;
@@ -88,7 +88,7 @@ pub(super) fn parameters(report: &CertificateReport<'_>, of: &StatedFunction) ->
         &stacked(languages, |w| w.standard),
         values.map(|(k, t)| Figure::of(fit.standard_uncertainty(k), t.1.clone())),
     );
-    let units = of.curve.parameters.iter().map(|(_, unit)| plain(printed(unit).text()));
+    let units = of.curve.parameters.iter().map(|(_, unit)| plain(with_symbols(unit).text()));
     sheet.units(&stacked(languages, |w| w.unit), units);
     sheet
 }
@@ -96,7 +96,7 @@ pub(super) fn parameters(report: &CertificateReport<'_>, of: &StatedFunction) ->
 /// Values with U over the range.
 pub(super) fn values(report: &CertificateReport<'_>, of: &StatedFunction) -> Sheet {
     let stated = stated(report, of);
-    let unit = |name: &str, unit: &gumption_units::Unit| match printed(unit).text().trim() {
+    let unit = |name: &str, unit: &gumption_units::Unit| match with_symbols(unit).text().trim() {
         "" | "1" => name.to_owned(),
         text => format!("{name}\n{}", plain(text)),
     };

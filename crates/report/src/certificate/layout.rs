@@ -5,10 +5,10 @@ use super::conformity;
 use super::sentences::SentenceLanguage;
 use super::sheets;
 use super::stated::{self, StatedRow};
-use super::units::printed;
 use super::words::{self, Words, stacked};
 use crate::number::{exact, position, rounded, to};
 use crate::plain;
+use crate::printed::with_symbols;
 use crate::sheet::{Figure, Sheet};
 use gumption_analysis::certificate::Basis;
 use gumption_analysis::certificate::contents::{
@@ -194,7 +194,7 @@ fn heading(
     let unit = shown_unit(column, lines).filter(|unit| unit.has_name());
     match unit.filter(|_| has_unit(column.content)) {
         Some(unit) => {
-            let unit = plain(printed(&unit).text());
+            let unit = plain(with_symbols(&unit).text());
             format!("{named}\n{}", words::in_unit(languages, &unit))
         }
         None => named,

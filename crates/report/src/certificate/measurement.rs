@@ -4,11 +4,11 @@
 //! the laboratory; such words are left out, and so are estimates and uncertainties of inputs, which
 //! belong to the budget.
 
-use super::units::{printed_formula, printed_text};
 use super::words::{Words, beside, stacked};
 use super::{CertificateReport, file_name};
 use crate::document::Document;
 use crate::plain;
+use crate::printed::{formula_text, unit_text};
 use crate::sheet::{ColumnKind, Sheet};
 use crate::statement;
 use gumption_engine::task::Task;
@@ -88,7 +88,7 @@ pub(super) fn sections(document: &mut Document, report: &CertificateReport<'_>) 
         }
         let mut sheet = Sheet::default();
         sheet.text(&header(|w| w.quantity), of.equations.iter().map(|[name, _]| name.clone()));
-        let texts = of.equations.iter().map(|[_, text]| printed_formula(text));
+        let texts = of.equations.iter().map(|[_, text]| formula_text(text));
         sheet.push(&header(|w| w.equation), texts, ColumnKind::Equations);
         document.table(sheet);
         if of.symbols.is_empty() {
@@ -100,7 +100,7 @@ pub(super) fn sections(document: &mut Document, report: &CertificateReport<'_>) 
         if column(1).any(|text| !text.is_empty()) {
             sheet.text(&header(|w| w.meaning), column(1));
         }
-        sheet.units(&header(|w| w.unit), column(2).map(|unit| printed_text(&unit)));
+        sheet.units(&header(|w| w.unit), column(2).map(|unit| unit_text(&unit)));
         document.table(sheet);
     }
 }

@@ -14,7 +14,6 @@ mod sentences;
 mod sheets;
 mod stated;
 mod trials_made;
-mod units;
 mod words;
 mod workbook;
 
@@ -77,12 +76,12 @@ pub fn attached(report: &CertificateReport<'_>) -> Vec<String> {
 
 /// The certificate as a page of at most 100 columns for a terminal.
 pub fn table(report: &CertificateReport<'_>) -> String {
-    look::text(&document::of(report))
+    look::text(|| document::of(report))
 }
 
 /// The certificate in GitHub Flavored Markdown.
 pub fn markdown(report: &CertificateReport<'_>) -> String {
-    look::markdown(&document::of(report))
+    look::markdown(|| document::of(report))
 }
 
 /// The certificate as a LaTeX file for `article` with `booktabs` and `siunitx`.
@@ -92,5 +91,5 @@ pub fn latex(report: &CertificateReport<'_>) -> String {
 
 /// The certificate as one self-contained HTML file.
 pub fn html(report: &CertificateReport<'_>) -> String {
-    look::html(&document::of(report))
+    look::html(|| document::of(report))
 }

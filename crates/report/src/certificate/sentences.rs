@@ -3,8 +3,8 @@
 use super::CertificateReport;
 use super::stated::{self, StatedRow};
 use super::words::{self, Words};
-use crate::document::with_comma;
 use crate::number::exact;
+use crate::printed::with_comma;
 use gumption_analysis::certificate::Basis;
 use gumption_analysis::certificate::contents::{Certificate, DecimalMark, Language, Rounding};
 

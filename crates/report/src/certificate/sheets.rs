@@ -3,10 +3,10 @@
 use super::CertificateReport;
 use super::sentences::in_marks;
 use super::stated::{self, StatedRow, UnitsAre};
-use super::units::printed;
 use super::words::{self, Words, stacked};
 use crate::number::{exact, rounded, significant};
 use crate::plain;
+use crate::printed::with_symbols;
 use crate::sheet::{Figure, Sheet};
 use gumption_engine::model::Quantity;
 use gumption_engine::number::elementary::log10;
@@ -32,7 +32,7 @@ pub(super) fn results(report: &CertificateReport<'_>) -> Sheet {
     }
     sheet.figures(&header(|w| w.value), rows.iter().map(StatedRow::value));
     sheet.figures(&header(|w| w.expanded), rows.iter().map(StatedRow::expanded));
-    let unit = |unit: &Unit| plain(printed(unit).text());
+    let unit = |unit: &Unit| plain(with_symbols(unit).text());
     let of_values = rows.iter().map(|row| unit(&row.quantity.unit));
     sheet.units(&header(|w| w.unit), of_values);
     // a level has another unit than its differences
@@ -73,7 +73,7 @@ fn conditions(
     rows: &[StatedRow<'_>],
     header: &str,
 ) {
-    let named = |quantity: &Quantity| match plain(printed(&quantity.unit).text()).as_str() {
+    let named = |quantity: &Quantity| match plain(with_symbols(&quantity.unit).text()).as_str() {
         "" | "1" => plain(&quantity.name),
         unit => {
             let unit = words::in_unit(&report.certificate.languages, unit);
@@ -129,7 +129,7 @@ pub(super) fn correlations(report: &CertificateReport<'_>) -> Sheet {
     let digits = report.certificate.digits + 1;
     sheet.figures("u_i", spreads.map(|u| Figure::rounded(*u, |u| significant(u, digits))));
     let rows = stated::rows(report);
-    let units = rows.iter().map(|row| plain(printed(&row.quantity.unit).text()));
+    let units = rows.iter().map(|row| plain(with_symbols(&row.quantity.unit).text()));
     sheet.units(&stacked(&report.certificate.languages, |w| w.unit), units);
     for column in 1..count {
         let cells =
@@ -171,7 +171,7 @@ pub(super) fn unrounded(report: &CertificateReport<'_>) -> Sheet {
     let mut sheet = Sheet::default();
     sheet.figures("row", rows.iter().map(StatedRow::numbered));
     sheet.text("quantity", rows.iter().map(|row| plain(&row.quantity.name)));
-    sheet.units("unit", rows.iter().map(|row| plain(printed(&row.quantity.unit).text())));
+    sheet.units("unit", rows.iter().map(|row| plain(with_symbols(&row.quantity.unit).text())));
     sheet.figures("value", column(|row| Some(row.statement.value)));
     sheet.figures("standard uncertainty", column(|row| Some(row.statement.standard_uncertainty)));
     sheet.figures("expanded uncertainty", column(|row| Some(row.statement.expanded_uncertainty)));

@@ -1,8 +1,8 @@
 //! The rows of a certificate as texts, rounded once for all formats.
 
 use super::CertificateReport;
-use super::units::{printed, printed_value};
 use crate::number::{exact, rounded};
+use crate::printed::{value_text, with_symbols};
 use crate::sheet::Figure;
 use crate::{conditions_text, plain};
 use gumption_analysis::certificate::contents::{Asked, Certificate, Language, Line};
@@ -255,7 +255,9 @@ impl StatedRow<'_> {
         let mut parts = if self.line.label.is_some() { Vec::new() } else { self.replaced(units) };
         let shown = self.shown(report);
         let written = |quantity: &Quantity| match units {
-            UnitsAre::Printed => Quantity { unit: printed(&quantity.unit), ..quantity.clone() },
+            UnitsAre::Printed => {
+                Quantity { unit: with_symbols(&quantity.unit), ..quantity.clone() }
+            }
             UnitsAre::OfFile => quantity.clone(),
         };
         let (quantities, values): (Vec<Quantity>, Vec<f64>) =
@@ -277,7 +279,7 @@ impl StatedRow<'_> {
                 _ => plain(value),
             };
             let value = match units {
-                UnitsAre::Printed => printed_value(&value),
+                UnitsAre::Printed => value_text(&value),
                 UnitsAre::OfFile => value,
             };
             format!("{} = {value}", plain(name))

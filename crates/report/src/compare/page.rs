@@ -2,11 +2,9 @@
 
 use std::borrow::Cow;
 
-use maud::html;
-
 use super::{Compare, figure, proficiency, sheets, words};
 use crate::document::{self, Block, Document, sentence};
-use crate::html::{figure as numbered, page, table as html_table};
+use crate::printed::on_terminal;
 use crate::sheet::Sheet;
 use crate::{Grid, table::width, wrapped};
 use gumption_engine::task::Warning;
@@ -44,51 +42,45 @@ fn notes(compare: &Compare) -> Vec<Cow<'static, str>> {
 
 /// The comparison as a text page.
 pub fn table(compare: &Compare) -> String {
-    let paragraphs = |of: &[&str]| of.iter().map(|text| wrapped(text)).collect::<String>();
-    let verdict = words::verdict(compare);
-    let verdict: Vec<&str> = verdict.iter().map(String::as_str).collect();
-    let table = Grid::of(&sheet(compare)).render(width());
-    let mut parts = vec![paragraphs(&verdict), table];
-    if let Some((sheet, said)) = estimators(compare) {
-        parts.push(Grid::of(&sheet).render(width()) + &wrapped(&said));
-    }
-    parts.push(notes(compare).iter().map(|note| wrapped(note)).collect());
-    parts.join("\n")
-}
-
-/// The comparison as one self-contained HTML file.
-pub fn html(compare: &Compare, warnings: &[Warning]) -> String {
-    let title = words::title(compare);
-    let drawing = figure::draw(compare);
-    let body = html! {
-        h1 { (title) }
-        div.verdict { @for said in words::verdict(compare) { p { (said) } } }
-        @if !warnings.is_empty() {
-            ul { @for said in crate::words::lines(warnings) { li { (sentence(&said)) } } }
+    on_terminal(|| {
+        let paragraphs = |of: &[&str]| of.iter().map(|text| wrapped(text)).collect::<String>();
+        let verdict = words::verdict(compare);
+        let verdict: Vec<&str> = verdict.iter().map(String::as_str).collect();
+        let table = Grid::of(&sheet(compare)).render(width());
+        let mut parts = vec![paragraphs(&verdict), table];
+        if let Some((sheet, said)) = estimators(compare) {
+            parts.push(Grid::of(&sheet).render(width()) + &wrapped(&said));
         }
-        (html_table(&sheet(compare)))
-        @if let Some(drawing) = drawing { (numbered(1, &drawing)) }
-        @if let Some((sheet, said)) = estimators(compare) { (html_table(&sheet)) p { (said) } }
-        @for note in notes(compare) { p { (note) } }
-        p.settings { "gumption " (env!("CARGO_PKG_VERSION")) }
-    };
-    page(&title, &body)
+        parts.push(notes(compare).iter().map(|note| wrapped(note)).collect());
+        parts.join("\n")
+    })
 }
 
-/// The comparison as Markdown, as GitHub shows it.
-pub fn markdown(compare: &Compare, warnings: &[Warning]) -> String {
+fn document(compare: &Compare, warnings: &[Warning]) -> Document {
     let mut document = Document { title: words::title(compare), ..Document::default() };
-    let verdict = words::verdict(compare);
-    document.blocks.push(Block::Text(verdict.join(" ")));
+    document.blocks.push(Block::Verdict(words::verdict(compare)));
     if !warnings.is_empty() {
         let said = crate::words::lines(warnings);
         document.blocks.push(Block::List(said.iter().map(|said| sentence(said)).collect()));
     }
-    document.blocks.push(Block::Table(sheet(compare)));
+    document.table(sheet(compare));
+    document.figure(figure::draw(compare));
     if let Some((sheet, said)) = estimators(compare) {
         document.table(sheet);
         document.text(said);
     }
-    document.blocks.extend(notes(compare).into_iter().map(|note| Block::Text(note.into_owned())));
-    document::markdown(&document)
+    for note in notes(compare) {
+        document.text(note);
+    }
+    document
+}
+
+/// The comparison as one self-contained HTML file.
+pub fn html(compare: &Compare, warnings: &[Warning]) -> String {
+    document::html(|| document(compare, warnings))
+}
+
+/// The comparison as Markdown, as GitHub shows it.
+pub fn markdown(compare: &Compare, warnings: &[Warning]) -> String {
+    document::markdown(|| document(compare, warnings))
 }

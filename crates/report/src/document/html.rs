@@ -7,13 +7,18 @@ use maud::{Markup, html};
 
 use super::{Block, Document, Head};
 use crate::html::{FigureSize, bare_figure, figure, page_in, raised, table};
+use crate::printed::{Notation, in_print};
 
 /// Numbers of sections for which a page has a table of contents: fewer are visible at once, more do
 /// not help.
 const LISTED: std::ops::RangeInclusive<usize> = 8..=60;
 
-/// The whole page.
-pub(crate) fn html(document: &Document) -> String {
+/// The whole page of the document that `made` makes, in the notation of print.
+pub(crate) fn html(made: impl FnOnce() -> Document) -> String {
+    in_print(Notation::Print, || page(&made()))
+}
+
+fn page(document: &Document) -> String {
     let mut counts = Counts::default();
     let body = html! {
         @if let Some(head) = &document.head { (self::head(head)) }

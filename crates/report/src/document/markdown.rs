@@ -2,12 +2,13 @@
 
 use super::{Block, Document};
 use crate::number::align;
+use crate::printed::{self, Notation, in_print};
 use crate::sheet::{Sheet, SheetColumn};
 use crate::table::one_line;
 
-/// The whole document, ending in a newline.
-pub(crate) fn markdown(document: &Document) -> String {
-    written(document, escaped)
+/// The whole document that `made` makes, in the notation of print, ending in a newline.
+pub(crate) fn markdown(made: impl FnOnce() -> Document) -> String {
+    in_print(Notation::Print, || written(&made(), escaped))
 }
 
 /// The same for a document whose texts come from this program and have code between backticks.
@@ -112,7 +113,7 @@ fn listing(about: &str, text: &str, escape: Escape) -> String {
 /// A text without markup: on one line, with a backslash before characters that would be markup. An
 /// underscore within a word is not markup.
 fn escaped(text: &str) -> String {
-    let text = one_line(text);
+    let text = printed::text(&one_line(text));
     let mut out = String::with_capacity(text.len());
     let mut before: Option<char> = None;
     let mut letters = text.chars().peekable();

@@ -21,7 +21,11 @@ use super::sheet::Sheet;
 /// A document.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct Document {
-    /// Its title.
+    /// The lines above the title of a text page, which are not wrapped.
+    pub(crate) first: Vec<String>,
+    /// What a text page says below these lines.
+    pub(crate) remarks: Vec<String>,
+    /// Its title; a text page may have none.
     pub(crate) title: String,
     /// Lines below the title.
     pub(crate) subtitle: Vec<String>,
@@ -205,28 +209,9 @@ pub(crate) fn sentence(text: &str) -> String {
     }
 }
 
-/// A number with a decimal comma instead of its point.
-pub(crate) fn with_comma(text: &str) -> String {
-    let letters: Vec<char> = text.chars().collect();
-    let is_digit = |place: Option<usize>| {
-        place.and_then(|place| letters.get(place)).is_some_and(char::is_ascii_digit)
-    };
-    let letters = letters.iter().enumerate().map(|(place, letter)| match letter {
-        '.' if is_digit(place.checked_sub(1)) && is_digit(Some(place + 1)) => ',',
-        letter => *letter,
-    });
-    letters.collect()
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
-
-    #[test]
-    fn a_point_between_digits_becomes_a_comma() {
-        assert_eq!(with_comma("k = 2.00, up to -0.5e-3."), "k = 2,00, up to -0,5e-3.");
-        assert_eq!(with_comma("z.re = 5. Then"), "z.re = 5. Then");
-    }
 
     #[test]
     fn a_foot_says_which_page_it_is() {

@@ -1,15 +1,26 @@
 //! A document as a text page for a terminal.
 
 use super::{Block, Document, Head};
+use crate::printed::{self, on_terminal};
 use crate::{Grid, plain, table::width, wrapped};
 
 /// A line for a signature.
 const RULE: &str = "________________________________";
 
-/// The whole document, ending in a newline; what has no form in text is left out.
-pub(crate) fn text(document: &Document) -> String {
+/// The whole document that `made` makes, ending in a newline; what has no form in text is left out.
+pub(crate) fn text(made: impl FnOnce() -> Document) -> String {
+    on_terminal(|| page(&made()))
+}
+
+fn page(document: &Document) -> String {
     let head = document.head.iter().flat_map(Head::text).map(|line| wrapped(&line)).collect();
-    let mut parts = vec![head, heading(&document.title, '═')];
+    // the lines of results are whole lines for whoever reads them with a program
+    let first = document.first.iter().map(|line| format!("{}\n", printed::text(&plain(line))));
+    let remarks = document.remarks.iter().map(|said| wrapped(said)).collect();
+    let mut parts = vec![head, first.collect(), remarks];
+    if !document.title.is_empty() {
+        parts.push(heading(&document.title, '═'));
+    }
     parts.push(document.subtitle.iter().map(|line| wrapped(line)).collect());
     parts.extend(document.written(|part| block(part, document.comma)));
     parts.retain(|part| !part.is_empty());
@@ -17,7 +28,7 @@ pub(crate) fn text(document: &Document) -> String {
 }
 
 fn heading(title: &str, rule: char) -> String {
-    let title = plain(title);
+    let title = printed::text(&plain(title));
     let rule: String = std::iter::repeat_n(rule, title.chars().count().min(width())).collect();
     format!("{}{rule}\n", wrapped(&title))
 }
@@ -76,7 +87,7 @@ mod tests {
         document.table(sheet);
         document.text("A sentence.");
         document.blocks.push(Block::List(vec!["one".to_owned(), "two".to_owned()]));
-        insta::assert_snapshot!(text(&document), @r"
+        insta::assert_snapshot!(page(&document), @r"
         Title
         ═════
 

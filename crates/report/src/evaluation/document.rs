@@ -1,6 +1,6 @@
 //! The whole document.
 
-use super::{Shown, figures, repeat, results, sweep};
+use super::{Extent, Shown, brief, figures, repeat, results, sweep};
 use crate::document::{Block, Document};
 use crate::sheet::Sheet;
 use crate::statement;
@@ -10,53 +10,149 @@ use crate::{EvaluationReport, plain};
 use gumption_engine::propagate::RowEvaluation;
 use gumption_engine::task::Task;
 
-/// Outputs up to which a page needs no table of all of them above their sections.
-const MOST_UNSUMMED: usize = 3;
+/// Outputs up to which their sections are not folded.
+const MOST_UNFOLDED: usize = 3;
+
+/// What a usual text page does not show.
+const MORE: &str = "All budgets, both methods, distributions, the model and the settings: --full.";
 
 /// The document of an evaluation: for one row of conditions everything about each output, for a
-/// sweep a table and a figure for each. One for a `terminal` has no notes, which stand on standard
-/// error beside it.
-pub(super) fn of(report: &EvaluationReport<'_>, shown: &Shown<'_>, terminal: bool) -> Document {
-    let EvaluationReport { task, evaluation, warnings, .. } = *report;
-    let title = plain(&task.title);
-    let mut document = Document {
-        title: if title.is_empty() { "Measurement uncertainty".to_owned() } else { title },
-        terminal,
-        ..Document::default()
-    };
-    document.subtitle.push(table::settings_text(evaluation));
-    document.subtitle.extend(table::at(task, evaluation));
-    document.subtitle.extend(table::stopped(evaluation));
-    statement::section(&mut document, statement::TITLE, task.into());
-    if let [row] = evaluation.rows.as_slice() {
-        if row.outputs.len() > MOST_UNSUMMED {
+/// sweep a table and a figure for each.
+pub(super) fn of(report: &EvaluationReport<'_>, shown: &Shown<'_>) -> Document {
+    let mut document = titled(report);
+    if let [row] = report.evaluation.rows.as_slice() {
+        if row.outputs.len() > 1 {
             document.section("Results");
-            let digits = evaluation.settings.digits_on_pages();
-            document.table(table::sweep::summary(task, row, digits));
-            if let Some(said) = table::sweep::explained(row.outputs.iter(), digits) {
-                document.text(said);
-            }
-        }
-        for output in 0..row.outputs.len() {
-            let folded = row.outputs.len() > MOST_UNSUMMED;
-            results::section(&mut document, report, shown, (output, folded));
+            summary(&mut document, report, row);
         }
     }
-    together_of(&mut document, report, shown);
-    if let Some(sheet) = quantities(task) {
-        document.section("Quantities");
-        document.table(sheet);
-    }
-    if let Some(drawing) = (!terminal).then(|| figures::inputs(task)).flatten() {
-        document.section("What is known about the inputs");
-        document.figure(Some(drawing));
-    }
-    if !warnings.is_empty() && !terminal {
+    sections(&mut document, report, shown);
+    let EvaluationReport { warnings, .. } = *report;
+    if !warnings.is_empty() {
         document.section("Notes");
         document.blocks.push(Block::List(crate::words::lines(warnings)));
     }
     repeat::section(&mut document, report, shown);
     document
+}
+
+/// The document of an evaluation for a text page. Notes are not part of it; the command prints them on
+/// standard error.
+pub(super) fn text(report: &EvaluationReport<'_>, shown: &Shown<'_>) -> Document {
+    let EvaluationReport { task, evaluation, .. } = *report;
+    let row = match evaluation.rows.as_slice() {
+        [row] => Some(row),
+        _ => None,
+    };
+    let first = row.map_or_else(Vec::new, |row| brief::results(report, row));
+    let remarks = row.map_or_else(Vec::new, |row| brief::remarks(report, row));
+    let mut document = match shown.extent {
+        Extent::Full => titled(report),
+        Extent::Brief | Extent::Usual => Document::default(),
+    };
+    document.terminal = true;
+    document.first = first;
+    match shown.extent {
+        Extent::Brief => {
+            if row.is_none() {
+                sweep::tables(&mut document, report);
+            }
+        }
+        Extent::Usual => {
+            document.remarks = remarks;
+            usual(&mut document, report, shown);
+            let mut settings = vec![plain(&task.title)];
+            settings.extend(table::at(task, evaluation));
+            settings.push(table::settings_text(evaluation));
+            settings.extend(table::stopped(evaluation));
+            settings.retain(|said| !said.is_empty());
+            document.sentence(&settings.join("; "));
+            document.text(MORE);
+        }
+        Extent::Full => {
+            document.remarks = remarks;
+            sections(&mut document, report, shown);
+            repeat::section(&mut document, report, shown);
+        }
+    }
+    document
+}
+
+/// A document with its title and what the evaluation is.
+fn titled(report: &EvaluationReport<'_>) -> Document {
+    let EvaluationReport { task, evaluation, .. } = *report;
+    let title = plain(&task.title);
+    let title = if title.is_empty() { "Measurement uncertainty".to_owned() } else { title };
+    let mut document = Document { title, ..Document::default() };
+    document.subtitle.push(table::settings_text(evaluation));
+    document.subtitle.extend(table::at(task, evaluation));
+    document.subtitle.extend(table::stopped(evaluation));
+    document
+}
+
+/// The results of several outputs in a table.
+fn summary(document: &mut Document, report: &EvaluationReport<'_>, row: &RowEvaluation) {
+    let digits = report.evaluation.settings.digits_on_pages();
+    document.table(table::sweep::summary(report.task, row, digits));
+    if let Some(said) = table::sweep::explained(row.outputs.iter(), digits) {
+        document.text(said);
+    }
+}
+
+/// The budget of a single output, or the shares of all inputs in those of several; the table of a
+/// sweep; and the distributions if they are drawn.
+fn usual(document: &mut Document, report: &EvaluationReport<'_>, shown: &Shown<'_>) {
+    let EvaluationReport { task, evaluation, .. } = *report;
+    let [row] = evaluation.rows.as_slice() else {
+        return sweep::sections(document, report, shown);
+    };
+    let digits = evaluation.settings.digits_on_pages();
+    let outputs = || {
+        let section = |output| results::section_of(report, shown, (0, output), true);
+        (0..row.outputs.len()).filter_map(section)
+    };
+    let together = (row.outputs.len() > 1 && shown.columns.is_empty())
+        .then(|| table::shares::sheet(task, row, digits));
+    match together {
+        Some(Some(sheet)) => {
+            document.text(table::shares::ABOUT);
+            document.table(sheet);
+        }
+        Some(None) => {}
+        None => {
+            for section in outputs() {
+                if row.outputs.len() > 1 {
+                    document.section(section.title);
+                }
+                document.blocks.extend(section.budget.blocks);
+            }
+        }
+    }
+    document.blocks.extend(outputs().flat_map(|section| section.distribution.blocks));
+    if let Some(said) = table::left_out(row) {
+        document.sentence(&said);
+    }
+}
+
+/// The sections about the outputs, the measurement and its inputs.
+fn sections(document: &mut Document, report: &EvaluationReport<'_>, shown: &Shown<'_>) {
+    let EvaluationReport { task, evaluation, .. } = *report;
+    if let [row] = evaluation.rows.as_slice() {
+        for output in 0..row.outputs.len() {
+            let folded = row.outputs.len() > MOST_UNFOLDED;
+            results::section(document, report, shown, (output, folded));
+        }
+    }
+    together_of(document, report, shown);
+    statement::section(document, statement::TITLE, task.into());
+    if let Some(sheet) = quantities(task) {
+        document.section("Quantities");
+        document.table(sheet);
+    }
+    if let Some(drawing) = (!document.terminal).then(|| figures::inputs(task)).flatten() {
+        document.section("Input distributions");
+        document.figure(Some(drawing));
+    }
 }
 
 /// What concerns all outputs of an evaluation.

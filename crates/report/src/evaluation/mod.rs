@@ -1,5 +1,6 @@
 //! An evaluation as a document: what a page of any look says about it.
 
+mod brief;
 mod document;
 mod figures;
 mod parts;
@@ -18,6 +19,18 @@ use super::document as look;
 use super::{BudgetColumn, EvaluationReport};
 use gumption_engine::propagate::monte_carlo::{Histogram, MonteCarlo};
 
+/// How much a text page shows.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Extent {
+    /// The result of each output on one line; of a sweep, a table.
+    Brief,
+    /// The results, what is doubtful, and the budgets: what fits on one screen.
+    #[default]
+    Usual,
+    /// Everything.
+    Full,
+}
+
 /// What a page shows beside the results.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct Shown<'a> {
@@ -30,6 +43,8 @@ pub struct Shown<'a> {
     pub convergence: &'a [Vec<MonteCarlo>],
     /// What the command line replaces in the model file, as it was typed.
     pub replaced: &'a [String],
+    /// How much a text page shows; other pages show everything.
+    pub extent: Extent,
     /// The language of the notes.
     pub language: crate::words::Language,
     /// The text of the model file, for pages that show it.
@@ -45,22 +60,21 @@ impl Shown<'_> {
 /// The evaluation as a page for a terminal of at most 100 columns, or as many as it has
 /// ([`crate::within_width`]). Warnings are not part of it.
 pub fn table(report: &EvaluationReport<'_>, shown: &Shown<'_>) -> String {
-    let shown = Shown { model: "", ..*shown };
-    look::text(&document::of(report, &shown, true))
+    look::text(|| document::text(report, &Shown { model: "", ..*shown }))
 }
 
 /// The evaluation in GitHub Flavored Markdown.
 pub fn markdown(report: &EvaluationReport<'_>, shown: &Shown<'_>) -> String {
-    look::markdown(&document::of(report, &Shown { model: "", ..*shown }, false))
+    look::markdown(|| document::of(report, &Shown { model: "", ..*shown }))
 }
 
 /// The evaluation as a LaTeX file for `article` with `booktabs` and `siunitx`.
 pub fn latex(report: &EvaluationReport<'_>, shown: &Shown<'_>) -> String {
-    look::latex(&document::of(report, &Shown { model: "", ..*shown }, false))
+    look::latex(&document::of(report, &Shown { model: "", ..*shown }))
 }
 
 /// The evaluation as one HTML file with figures that needs nothing else: it loads nothing and runs
 /// nothing, reads in light and dark and prints on A4.
 pub fn html(report: &EvaluationReport<'_>, shown: &Shown<'_>) -> String {
-    look::html(&document::of(report, shown, false))
+    look::html(|| document::of(report, shown))
 }

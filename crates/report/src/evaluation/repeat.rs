@@ -10,14 +10,14 @@ use gumption_engine::task::Trials;
 
 /// Program, settings, digests, and the text of the model file where the page shows it.
 pub(super) fn section(document: &mut Document, report: &EvaluationReport<'_>, shown: &Shown<'_>) {
-    document.section("To repeat this");
+    document.section("Reproducing this result");
     let lines = lines(report, shown);
     let mut sheet = Sheet::default();
     sheet.text("what", lines.iter().map(|(name, _)| name.clone()));
     sheet.text("value", lines.into_iter().map(|(_, value)| value));
     document.table(sheet);
     document
-        .text("The same program, files and seed give the same figures on any number of threads.");
+        .text("The same program, files and seed give the same result with any number of threads.");
     let model = shown.model;
     if !model.trim().is_empty() {
         let about = "The model file:".to_owned();
@@ -29,9 +29,14 @@ pub(super) fn section(document: &mut Document, report: &EvaluationReport<'_>, sh
 pub(super) fn lines(report: &EvaluationReport<'_>, shown: &Shown<'_>) -> Vec<(String, String)> {
     let EvaluationReport { evaluation, provenance, .. } = report;
     let settings = &evaluation.settings;
-    let trials = match settings.trials {
+    let asked = match settings.trials {
         Trials::Fixed(trials) => trials.to_string(),
         Trials::Adaptive => format!("adaptive, by rule {}", settings.rule.name()),
+    };
+    // the result of a stopped run does not come out again
+    let trials = match table::stopped(evaluation) {
+        Some(stopped) => format!("{asked}; {stopped}"),
+        None => asked,
     };
     let mut lines = vec![
         ("program".to_owned(), format!("gumption {}", env!("CARGO_PKG_VERSION"))),
@@ -45,8 +50,6 @@ pub(super) fn lines(report: &EvaluationReport<'_>, shown: &Shown<'_>) -> Vec<(St
     if !provenance.model_sha256.is_empty() {
         lines.push(("model file, SHA-256".to_owned(), provenance.model_sha256.clone()));
     }
-    // those figures do not come out again
-    lines.extend(table::stopped(evaluation).map(|said| ("this run".to_owned(), said)));
     lines.extend(shown.replaced.iter().map(|text| ("replaced".to_owned(), plain(text))));
     let digest =
         |(name, digest): &(String, String)| (format!("{}, SHA-256", plain(name)), digest.clone());

@@ -8,7 +8,7 @@ use crate::sheet::Sheet;
 use crate::table;
 use crate::table::budget;
 use crate::table::budget::Budget;
-use crate::table::{comparison, in_unit};
+use crate::table::{comparison, in_unit, rows, unit_text};
 use gumption_engine::model::{Output, Quantity};
 use gumption_engine::propagate::gum::Gum;
 use gumption_engine::propagate::monte_carlo::MonteCarlo;
@@ -73,8 +73,11 @@ pub(super) fn section_of(
     match &found.gum {
         Some(gum) => {
             let budget = Budget { task, output: quantity, gum, digits };
-            section.budget.table(budget.sheet(shown.columns));
+            section.budget.table(budget.sheet(shown.columns, in_characters));
             section.budget.sentence(&budget::legend(quantity, shown.columns));
+            if let Some(said) = rows::constants(task, gum) {
+                section.budget.sentence(&said);
+            }
             if let Some(said) = budget::subtotals(task, gum) {
                 section.budget.sentence(&said);
             }
@@ -132,21 +135,20 @@ fn verdict(settings: &Settings, stated: &Output, found: &OutputEvaluation) -> Ve
     said
 }
 
-/// The measurement result in one sentence.
-fn result(settings: &Settings, output: &Quantity, found: &OutputEvaluation) -> String {
+/// The measurement result on one line.
+pub(super) fn result(settings: &Settings, output: &Quantity, found: &OutputEvaluation) -> String {
     let name = crate::plain(&output.name);
     let coverage = table::coverage_text(settings.coverage);
     match ResultStatement::of(settings, found) {
         ResultStatement::Expanded { estimate, expanded, factor } => {
             let unit = &output.unit;
-            let value = match (unit.has_name(), unit.has_reference()) {
+            let value = match unit.has_reference() {
                 // an uncertainty of a level is a ratio, without the reference
-                (_, true) => {
+                true => {
                     let expanded = in_unit(&expanded, &unit.of_differences());
                     format!("{} ± {expanded}", in_unit(&estimate, unit))
                 }
-                (true, false) => in_unit(&format!("({estimate} ± {expanded})"), unit),
-                (false, false) => format!("{estimate} ± {expanded}"),
+                false => in_unit(&format!("({estimate} ± {expanded})"), unit),
             };
             let probability = format!("coverage probability {coverage}");
             let about = match raised(found) {
@@ -154,15 +156,14 @@ fn result(settings: &Settings, output: &Quantity, found: &OutputEvaluation) -> S
                 None if is_agreed(settings, found) => "an agreed factor",
                 None => &probability,
             };
-            format!("{name} = {value}; k = {factor}, {about}")
+            format!("{name} = {value}, k = {factor}, {about}")
         }
         ResultStatement::Interval { estimate, low, high, shortest } => {
-            let kind = if shortest { "shortest" } else { "probabilistically symmetric" };
-            let high = in_unit(&high, &output.unit);
+            let kind = if shortest { "shortest" } else { "symmetric" };
             let estimate = in_unit(&estimate, &output.unit);
             format!(
-                "{name} = {estimate}; coverage interval from {low} to {high} (Monte Carlo, {kind}), \
-                 coverage probability {coverage}"
+                "{name} = {estimate}, from {low} to {high}, coverage probability {coverage} \
+                 ({kind} Monte Carlo interval)"
             )
         }
         ResultStatement::Standard { estimate, uncertainty } => {
@@ -194,7 +195,7 @@ fn is_agreed(settings: &Settings, found: &OutputEvaluation) -> bool {
 }
 
 /// The measurement result as JCGM 100, 7.2.4 states it; the Monte Carlo interval where the GUM's
-/// is not valid or does not exist. All figures are rounded, in the output's unit.
+/// is not validated or does not exist. All figures are rounded, in the output's unit.
 #[derive(Clone, Debug, PartialEq, Eq)]
 #[non_exhaustive]
 pub enum ResultStatement {
@@ -230,7 +231,7 @@ pub enum ResultStatement {
 }
 
 /// What is taken of an output as its result (JCGM 100, 7.2.4): the Monte Carlo interval where the GUM's
-/// is not valid or does not exist.
+/// is not validated or does not exist.
 #[derive(Clone, Copy, Debug)]
 pub(crate) enum Taken<'a> {
     /// An estimate with its expanded uncertainty and coverage factor, and the laboratory's capability
@@ -343,7 +344,7 @@ fn conclusions(
         line.unit
             .as_ref()
             .filter(|unit| unit.has_name())
-            .map_or_else(String::new, |unit| unit.text().into())
+            .map_or_else(String::new, |unit| unit_text(unit))
     };
     sheet.units("unit", lines.iter().map(unit));
     let remark = |line: &budget::Conclusion| match (line.name, settings.coverage) {

@@ -1,6 +1,6 @@
 //! A sweep over conditions: a table and a figure for each output.
 
-use super::{Shown, figures, terminal};
+use super::{Extent, Shown, figures, terminal};
 use crate::document::{Block, Document};
 use crate::table;
 use crate::table::{conditions_text, sweep};
@@ -8,6 +8,16 @@ use crate::{EvaluationReport, wrapped};
 
 /// Rows of a table on a page that is no page for a terminal, at most.
 const MOST_ROWS: usize = 2000;
+
+/// The table of each output alone.
+pub(super) fn tables(document: &mut Document, report: &EvaluationReport<'_>) {
+    let EvaluationReport { task, evaluation, .. } = *report;
+    let digits = evaluation.settings.digits_on_pages();
+    for (output, declared) in task.model.outputs.iter().enumerate() {
+        document.section(table::title_text(&declared.quantity));
+        document.table(sweep::sheet(task, &evaluation.rows, output, digits));
+    }
+}
 
 /// The sections of all outputs.
 pub(super) fn sections(document: &mut Document, report: &EvaluationReport<'_>, shown: &Shown<'_>) {
@@ -28,7 +38,8 @@ pub(super) fn sections(document: &mut Document, report: &EvaluationReport<'_>, s
             document.text(said);
         }
         document.picture(|| figures::sweep(task, rows, (output, settings)), || None);
-        if let Some(sheet) = sweep::shares(task, rows, output) {
+        let has_shares = !document.terminal || shown.extent == Extent::Full;
+        if let Some(sheet) = sweep::shares(task, rows, output).filter(|_| has_shares) {
             document.text("Shares of the variance in %:");
             document.table(sheet);
         }

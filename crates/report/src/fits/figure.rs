@@ -39,7 +39,7 @@ pub(super) fn draw(curve: &CurveFunction, coverage: Coverage) -> Option<Drawing>
     let y = Axis::around(values.chain(shown.iter().map(|p| points.y[*p])))?;
     let ends = shown.iter().flat_map(|p| [residuals[*p] - bar(*p), residuals[*p] + bar(*p)]);
     let left = Axis::about_zero(ends.chain(band.iter().map(|[_, _, u]| *u)));
-    let label = |name: &str, unit: &gumption_units::Unit| match unit.text().trim() {
+    let label = |name: &str, unit: &gumption_units::Unit| match unit_text(unit).trim() {
         "" | "1" => plain(name),
         text => format!("{} in {}", plain(name), plain(text)),
     };
@@ -96,7 +96,7 @@ pub(super) fn draw(curve: &CurveFunction, coverage: Coverage) -> Option<Drawing>
 }
 
 fn label(unit: &gumption_units::Unit) -> String {
-    match unit.text().trim() {
+    match unit_text(unit).trim() {
         "" | "1" => "x".to_owned(),
         text => format!("x in {}", plain(text)),
     }

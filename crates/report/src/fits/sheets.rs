@@ -25,7 +25,7 @@ pub(super) fn coefficients(curve: &CurveFunction, digits: u32) -> Sheet {
     sheet.text("coefficient", curve.parameters.iter().map(|(name, _)| plain(name)));
     sheet.figures("estimate", figures(&|k| (fit.estimate(k), rounded[k].0.clone())));
     sheet.figures("std. unc.", figures(&|k| (fit.standard_uncertainty(k), rounded[k].1.clone())));
-    sheet.units("unit", curve.parameters.iter().map(|(_, unit)| unit.text().to_owned()));
+    sheet.units("unit", curve.parameters.iter().map(|(_, unit)| unit_text(unit)));
     sheet
 }
 
@@ -73,7 +73,7 @@ pub(super) fn statement(curve: &CurveFunction, coverage: Coverage, digits: u32) 
     let at: Vec<f64> = places(curve, STATED).collect();
     let values: Vec<(f64, f64)> =
         at.iter().map(|x| (curve.fit.at(*x), k * curve.fit.uncertainty_at(*x))).collect();
-    let unit = |name: &str, unit: &gumption_units::Unit| match unit.text().trim() {
+    let unit = |name: &str, unit: &gumption_units::Unit| match unit_text(unit).trim() {
         "" | "1" => name.to_owned(),
         text => format!("{name}\n{}", plain(text)),
     };

@@ -13,7 +13,7 @@ pub(super) fn form(curve: &CurveFunction) -> String {
     let points = &*fit.points;
     let equation = equation(curve);
     let [least, most] = points.range();
-    let unit = |unit: &gumption_units::Unit| match unit.text().trim() {
+    let unit = |unit: &gumption_units::Unit| match unit_text(unit).trim() {
         "" | "1" => String::new(),
         text => format!(" {}", plain(text)),
     };

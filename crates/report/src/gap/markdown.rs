@@ -5,5 +5,5 @@ use gumption_gap::Diagnosis;
 
 /// The diagnosis as GitHub Flavored Markdown: what the page says, without its figures.
 pub fn markdown(diagnosis: &Diagnosis, provenance: &Provenance) -> String {
-    document::markdown(&super::page::document(diagnosis, provenance, false))
+    document::markdown(|| super::page::document(diagnosis, provenance, false))
 }

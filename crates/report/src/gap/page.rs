@@ -11,7 +11,7 @@ use gumption_gap::Diagnosis;
 /// The diagnosis as a page for a terminal of at most 100 columns, or as many as it has
 /// ([`crate::within_width`]).
 pub fn table(diagnosis: &Diagnosis, provenance: &Provenance) -> String {
-    document::text(&document(diagnosis, provenance, true))
+    document::text(|| document(diagnosis, provenance, true))
 }
 
 /// All that the page says, with figures; where it `is_terminal` they are in characters.

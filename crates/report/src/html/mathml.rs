@@ -13,11 +13,33 @@ pub(super) fn equation(text: &str) -> Markup {
 fn typeset(text: &str) -> Option<Markup> {
     let Equation { whole, uses } = Equation::read(text)?;
     Some(html! {
-        math displaystyle="true" { (part(&whole)) }
+        @for (place, (sign, term)) in terms(&whole).into_iter().enumerate() {
+            @if place > 0 { " " }
+            math displaystyle="true" {
+                @if let Some(Layout::Sign(sign)) = sign { mo form="infix" { (sign) } }
+                (part(term))
+            }
+        }
         @if let Some([name, of]) = uses {
             ", " math displaystyle="true" { (part(&name)) mo { "=" } (part(&of)) }
         }
     })
+}
+
+/// The terms of a sum, each with the sign before it: a line may break between them. An expression that
+/// is not a sum is one term.
+fn terms(whole: &Layout) -> Vec<(Option<&Layout>, &Layout)> {
+    let mut terms = Vec::new();
+    let mut rest = whole;
+    while let Layout::Row(parts) = rest
+        && let [first, sign @ Layout::Sign("+" | "\u{2212}"), last] = parts.as_slice()
+    {
+        terms.push((Some(sign), last));
+        rest = first;
+    }
+    terms.push((None, rest));
+    terms.reverse();
+    terms
 }
 
 fn part(layout: &Layout) -> Markup {

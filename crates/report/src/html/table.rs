@@ -4,6 +4,7 @@ use maud::{Markup, html};
 
 use super::{mathml, raised};
 use crate::number::align;
+use crate::printed;
 use crate::sheet::{ColumnKind, Sheet, SheetColumn};
 
 /// Maximum number of rows of a table that is kept on one printed page.
@@ -65,6 +66,7 @@ pub(crate) fn table(sheet: &Sheet) -> Markup {
 
 /// Numbers padded with spaces of the width of a digit, and of a point for numbers without one.
 fn padded(cells: &[String]) -> Vec<String> {
+    let cells: Vec<String> = cells.iter().map(|cell| printed::text(cell)).collect();
     let has_points = cells.iter().any(|cell| cell.contains('.'));
     let pad = |cell: String| {
         let end = cell.trim_end_matches(' ').len();
@@ -76,7 +78,7 @@ fn padded(cells: &[String]) -> Vec<String> {
         let digits = behind.len() - usize::from(!point.is_empty());
         before + words + point + &"\u{2007}".repeat(digits)
     };
-    align(cells).into_iter().map(pad).collect()
+    align(&cells).into_iter().map(pad).collect()
 }
 
 #[cfg(test)]

@@ -117,7 +117,7 @@ struct Axes {
 impl ChannelFigures<'_> {
     fn label(&self, what: &str) -> String {
         match self.channel.unit.has_name() {
-            true => format!("{what} in {}", plain(self.channel.unit.text())),
+            true => format!("{what} in {}", unit_text(&self.channel.unit)),
             false => what.to_owned(),
         }
     }

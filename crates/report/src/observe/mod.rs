@@ -13,12 +13,12 @@ pub use table::table;
 
 /// The observations in GitHub Flavored Markdown.
 pub fn markdown(observed: &ObservationReport<'_>) -> String {
-    look::markdown(&document::of(observed))
+    look::markdown(|| document::of(observed))
 }
 
 /// The observations as one HTML file that needs nothing else.
 pub fn html(observed: &ObservationReport<'_>) -> String {
-    look::html(&document::of(observed))
+    look::html(|| document::of(observed))
 }
 
 use super::{Provenance, document as look};

@@ -2,35 +2,39 @@
 
 use super::{ObservationReport, sheets};
 use crate::number::{exact, significant, with_uncertainty};
+use crate::printed::on_terminal;
 use crate::{Grid, table::width, wrapped};
 use gumption_signal::{Amplitude, ChannelObservation};
 
 /// The observations as a page of text: for each row and frequency the components of every channel, and
 /// what is said of the channels as a whole.
 pub fn table(observed: &ObservationReport<'_>) -> String {
-    let mut page = String::new();
-    if let Some(title) = observed.title {
-        page += &wrapped(title);
-    }
-    page += &wrapped(&method(observed));
-    for (values, channels) in observed.lines() {
-        page += &format!("\n{}\n\n", at(observed, values, channels));
-        page += &Grid::of(&sheets::components(observed, channels)).render(width());
-        page.push('\n');
-        page += &Grid::of(&sheets::channels(observed, channels)).render(width());
-        let made_of = sheets::made_of(observed, channels);
-        if !made_of.is_empty() {
-            page += &wrapped(&format!("u^2 of the amplitudes: {made_of}"));
+    on_terminal(|| {
+        let mut page = String::new();
+        if let Some(title) = observed.title {
+            page += &wrapped(title);
         }
-        page += &findings(observed, channels).iter().map(|said| wrapped(said)).collect::<String>();
-    }
-    if !observed.warnings.is_empty() {
-        page.push('\n');
-        for said in crate::words::lines(observed.warnings) {
-            page += &wrapped(&format!("Note: {said}."));
+        page += &wrapped(&method(observed));
+        for (values, channels) in observed.lines() {
+            page += &format!("\n{}\n\n", at(observed, values, channels));
+            page += &Grid::of(&sheets::components(observed, channels)).render(width());
+            page.push('\n');
+            page += &Grid::of(&sheets::channels(observed, channels)).render(width());
+            let made_of = sheets::made_of(observed, channels);
+            if !made_of.is_empty() {
+                page += &wrapped(&format!("u^2 of the amplitudes: {made_of}"));
+            }
+            page +=
+                &findings(observed, channels).iter().map(|said| wrapped(said)).collect::<String>();
         }
-    }
-    page
+        if !observed.warnings.is_empty() {
+            page.push('\n');
+            for said in crate::words::lines(observed.warnings) {
+                page += &wrapped(&format!("Note: {said}."));
+            }
+        }
+        page
+    })
 }
 
 /// How the figures were found, and what they are.

@@ -2,23 +2,26 @@
 
 use super::{PlanReport, figure, sheets, words};
 use crate::document::{self, Block, Document};
+use crate::printed::on_terminal;
 use crate::{Grid, statement, table::width, wrapped};
 
 /// The plan as a text page.
 pub fn table(report: &PlanReport<'_>) -> String {
-    let plan = report.plan;
-    let head = wrapped(&words::title(report)) + &wrapped(&words::target(report));
-    let mut parts = vec![head];
-    parts.push(Grid::of(&sheets::inputs(report)).render(width()) + &wrapped(words::ALONE));
-    if let Some(cheapest) = &plan.cheapest {
-        let heading = wrapped("Cheapest plan");
-        parts.push(heading + &Grid::of(&sheets::cheapest(report, cheapest)).render(width()));
-    }
-    let notes: String = words::notes(report).iter().map(|said| wrapped(said)).collect();
-    parts.push(notes);
-    parts.extend(plan.interval.as_ref().map(|found| wrapped(&words::interval(report, found))));
-    parts.retain(|part| !part.is_empty());
-    parts.join("\n")
+    on_terminal(|| {
+        let plan = report.plan;
+        let head = wrapped(&words::title(report)) + &wrapped(&words::target(report));
+        let mut parts = vec![head];
+        parts.push(Grid::of(&sheets::inputs(report)).render(width()) + &wrapped(words::ALONE));
+        if let Some(cheapest) = &plan.cheapest {
+            let heading = wrapped("Cheapest plan");
+            parts.push(heading + &Grid::of(&sheets::cheapest(report, cheapest)).render(width()));
+        }
+        let notes: String = words::notes(report).iter().map(|said| wrapped(said)).collect();
+        parts.push(notes);
+        parts.extend(plan.interval.as_ref().map(|found| wrapped(&words::interval(report, found))));
+        parts.retain(|part| !part.is_empty());
+        parts.join("\n")
+    })
 }
 
 fn document(report: &PlanReport<'_>) -> Document {
@@ -55,10 +58,10 @@ fn document(report: &PlanReport<'_>) -> Document {
 
 /// The plan as Markdown, as GitHub shows it.
 pub fn markdown(report: &PlanReport<'_>) -> String {
-    document::markdown(&document(report))
+    document::markdown(|| document(report))
 }
 
 /// The plan as one self-contained HTML file with figures.
 pub fn html(report: &PlanReport<'_>) -> String {
-    document::html(&document(report))
+    document::html(|| document(report))
 }

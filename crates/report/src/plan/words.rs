@@ -85,7 +85,7 @@ pub fn worse_offers(task: &Task, costs: &Costs) -> Vec<String> {
                 format!(
                     " Numbers without a unit are in {unit}; a number in another has it behind it, \
                      written as `\"1.5 {unit}\"` is.",
-                    unit = plain(variable.unit.text())
+                    unit = unit_text(&variable.unit)
                 )
             } else {
                 String::new()

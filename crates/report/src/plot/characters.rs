@@ -17,6 +17,19 @@ pub(crate) fn bars(heights: &[f64]) -> String {
     heights.iter().map(|height| EIGHTHS[if most > 0.0 { eighth(height) } else { 0 }]).collect()
 }
 
+/// The eighths of a cell from the left.
+const LEFT_EIGHTHS: [char; 8] = [' ', '▏', '▎', '▍', '▌', '▋', '▊', '▉'];
+
+/// A bar from the left for a share of `width` cells; empty for one that is not positive.
+pub(crate) fn horizontal_bar(share: f64, width: usize) -> String {
+    let eighths = (8.0 * width as f64 * share.clamp(0.0, 1.0)).round() as usize;
+    let mut bar = "█".repeat(eighths / 8);
+    if eighths % 8 > 0 {
+        bar.push(LEFT_EIGHTHS[eighths % 8]);
+    }
+    bar
+}
+
 impl CharacterGrid {
     /// A blank grid with this number of columns and rows.
     pub(crate) fn new(width: usize, height: usize) -> Self {

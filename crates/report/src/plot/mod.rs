@@ -10,7 +10,7 @@ mod strip;
 mod svg;
 
 pub(super) use axis::Axis;
-pub(super) use characters::{CharacterGrid, bars, cell_at};
+pub(super) use characters::{CharacterGrid, bars, cell_at, horizontal_bar};
 pub(super) use groups::Groups;
 pub(super) use ink::{AFTER, BEFORE, EVEN, FAINT, INK, SHADES, WEAK};
 pub(super) use marks::{Fill, mark};

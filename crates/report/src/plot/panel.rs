@@ -13,6 +13,7 @@ use super::axis::Axis;
 use super::ink::{FAINT, INK, WEAK};
 use super::strip::marks_within;
 use super::svg::{Area, Drawn, FONT, px, text_style};
+use crate::printed::figure_text;
 
 /// Space for the marks of an axis and its label, in pixels.
 const BELOW: f64 = 42.0;
@@ -35,7 +36,8 @@ pub(crate) struct Marked {
 
 impl Marked {
     fn new(axis: &Axis, most: usize) -> Self {
-        Self { ends: axis.ends(), marks: axis.marks(most) }
+        let marks = axis.marks(most).into_iter().map(|(place, text)| (place, figure_text(&text)));
+        Self { ends: axis.ends(), marks: marks.collect() }
     }
 
     /// How far the last number extends beyond the end of a horizontal axis of this length, in
@@ -97,6 +99,7 @@ impl Panel<'_> {
     /// Draws axes and grid.
     pub(crate) fn draw<'a>(&self, area: &Area<'a>) -> Drawn<Chart<'a>> {
         let y = Marked::new(self.y.0, self.marks[1]);
+        let [x_label, y_label] = [&self.x.1, &self.y.1].map(|label| figure_text(label));
         let longest = y.marks.iter().map(|(_, text)| text.chars().count()).max().unwrap_or(0);
         let left = LEFT.max(DIGIT * longest as f64 + BESIDE);
         let inner = f64::from(area.dim_in_pixel().0) / f64::from(px(1.0)) - left - 18.0;
@@ -112,8 +115,8 @@ impl Panel<'_> {
             .bold_line_style(FAINT.stroke_width(px(0.75).unsigned_abs()))
             .label_style(text_style(FONT - 1.0, INK, false))
             .axis_desc_style(text_style(FONT, INK, false))
-            .x_desc(&self.x.1)
-            .y_desc(&self.y.1)
+            .x_desc(x_label)
+            .y_desc(y_label)
             .set_all_tick_mark_size(px(4.0))
             .draw()?;
         Ok(chart)
@@ -130,6 +133,6 @@ fn titled<'a>(area: &Area<'a>, title: &str) -> Drawn<Area<'a>> {
     let space = (height / 2).min(5);
     let middle = area.dim_in_pixel().0.cast_signed() / 2;
     let centred = style.pos(Pos::new(HPos::Center, VPos::Top));
-    area.draw_text(title, &centred, (middle, space))?;
+    area.draw_text(&figure_text(title), &centred, (middle, space))?;
     Ok(area.margin(2 * space + height, 0, 0, 0))
 }

@@ -9,6 +9,7 @@ use plotters::style::text_anchor::{HPos, Pos, VPos};
 use plotters::style::{Color, FontStyle, IntoFont, RGBColor, TextStyle};
 
 use super::Chart;
+use crate::printed::figure_text;
 
 /// Drawing units per pixel of the page: positions are whole numbers of units.
 pub(crate) const SCALE: i32 = 4;
@@ -59,7 +60,7 @@ impl Titles {
         let shown = if self.places.len() > MOST_TITLES { &[] } else { self.places.as_slice() };
         html! {
             @for (x, y, text) in shown {
-                circle cx=(x) cy=(y) r=(px(REACH)) fill="transparent" { title { (text) } }
+                circle cx=(x) cy=(y) r=(px(REACH)) fill="transparent" { title { (figure_text(text)) } }
             }
         }
     }
@@ -152,7 +153,7 @@ pub(crate) fn write(area: &Area<'_>, text: &str, how: Write) -> Drawn {
         Anchor::End => HPos::Right,
     };
     let style = text_style(how.size, how.colour, how.bold).pos(Pos::new(anchor, VPos::Center));
-    area.draw(&Text::new(text.to_owned(), (px(how.at.0), px(how.at.1)), style))
+    area.draw(&Text::new(figure_text(text), (px(how.at.0), px(how.at.1)), style))
 }
 
 /// The style of a text of a size in pixels.

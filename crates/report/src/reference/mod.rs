@@ -106,7 +106,7 @@ pub fn table(topic: Topic) -> String {
             cells.for_each(|cell| cell.retain(|letter| letter != '`'));
         }
     }
-    document::text(&document)
+    document::text(|| document)
 }
 
 /// The topic as Markdown.

@@ -44,7 +44,8 @@ pub(super) fn draw(task: &Task, region: &RegionEvaluation) -> Option<Drawing> {
     };
     let x = Axis::around(places().map(|place| place.0))?;
     let y = Axis::around(places().map(|place| place.1))?;
-    let label = |quantity: &gumption_engine::model::Quantity| match quantity.unit.text().trim() {
+    let label = |quantity: &gumption_engine::model::Quantity| match unit_text(&quantity.unit).trim()
+    {
         "" | "1" => plain(&quantity.name),
         text => format!("{} in {}", plain(&quantity.name), plain(text)),
     };

@@ -71,7 +71,7 @@ pub(super) fn sentences(task: &Task, region: &RegionEvaluation) -> Vec<String> {
                 .outputs
                 .iter()
                 .filter_map(|output| task.model.outputs.get(*output))
-                .map(|output| output.quantity.unit.text().trim().to_owned())
+                .map(|output| unit_text(&output.quantity.unit).trim().to_owned())
                 .filter(|unit| !matches!(unit.as_str(), "" | "1"))
                 .map(|unit| plain(&unit))
                 .collect();

@@ -1,7 +1,9 @@
 //! The uncertainty budget of one output, and what follows from it.
 
 use super::columns::{self, BudgetColumn};
-use super::{coverage_text, text};
+use super::rows::{InputRow, page_rows};
+use super::{Grid, coverage_text, text, unit_text};
+use crate::plot::horizontal_bar;
 use crate::number::{coefficient, exact, position, rounded, significant, with_uncertainty};
 use crate::sheet::{ColumnKind, Figure, Sheet};
 use crate::subtotals::Subtotals;
@@ -16,6 +18,9 @@ const SENSITIVITY_DIGITS: u32 = 4;
 
 /// Correlation coefficients with a line each, at most; the shares of more are added up.
 const MOST_COEFFICIENTS: usize = 500;
+
+/// Letters of the longest bar beside a share.
+const BAR: usize = 10;
 
 /// Degrees of freedom above this are written as a power of ten.
 const MANY: f64 = 1e7;
@@ -55,7 +60,7 @@ pub(super) struct Field {
 impl Budget<'_> {
     /// The budget with the combined standard uncertainty as its last line and the further columns in
     /// their places.
-    pub(crate) fn sheet(&self, columns: &[BudgetColumn]) -> Sheet {
+    pub(crate) fn sheet(&self, columns: &[BudgetColumn], has_bars: bool) -> Sheet {
         let further = columns::fields(self, columns);
         let mut sheet = Sheet { footer: true, ..Sheet::default() };
         let mut push = |field: &Field, aside: bool| {
@@ -71,7 +76,27 @@ impl Budget<'_> {
             let behind = further.iter().filter(|(behind, _)| *behind == position);
             behind.for_each(|(_, field)| push(field, true));
         }
+        if has_bars {
+            self.add_bars(&mut sheet);
+        }
         sheet
+    }
+
+    /// Adds a column with a bar for the share of each input, if the page has room for it.
+    fn add_bars(&self, sheet: &mut Sheet) {
+        let mut with_bars = sheet.clone();
+        let share = |row: InputRow<'_>| match row {
+            InputRow::Composed(..) => 0.0,
+            InputRow::Variable(_, line) => line.share,
+        };
+        let rows = page_rows(self.task, self.gum).into_iter().map(share);
+        let bars = rows.map(|share| horizontal_bar(share, BAR)).collect::<Vec<_>>();
+        let blank = sheet.rows().saturating_sub(bars.len());
+        let blank = std::iter::repeat_n(String::new(), blank);
+        with_bars.text("", bars.into_iter().chain(blank));
+        if Grid::of(&with_bars).natural_width() <= super::width() {
+            *sheet = with_bars;
+        }
     }
 
     fn usual_fields(&self) -> Vec<Field> {
@@ -93,35 +118,6 @@ impl Budget<'_> {
 /// The cells of a line.
 type BudgetCells = [String; 9];
 
-/// A line of the budget that belongs to an input.
-pub(crate) enum InputRow<'a> {
-    /// A quantity that is made of components, above their lines. What it contributes stands there.
-    Composed(&'a Quantity, InputFigures),
-    /// A variable: an input, or a component of one.
-    Variable(&'a Variable, BudgetLine),
-}
-
-/// The lines of all inputs, in order.
-pub(crate) fn input_rows<'a>(task: &'a Task, gum: &Gum) -> Vec<InputRow<'a>> {
-    let mut composed =
-        task.model.inputs.iter().zip(InputFigures::of_gum(task, gum)).filter(|(_, f)| f.composed);
-    let mut next = composed.next();
-    let mut rows = Vec::new();
-    for line in gum.budget() {
-        let Some(variable) = task.variables.get(line.variable) else { continue };
-        while let Some((input, figures)) = next.take() {
-            if figures.variables.start > line.variable {
-                next = Some((input, figures));
-                break;
-            }
-            rows.push(InputRow::Composed(&input.quantity, figures));
-            next = composed.next();
-        }
-        rows.push(InputRow::Variable(variable, line));
-    }
-    rows
-}
-
 /// What stands for the distribution of a quantity that is made of components.
 pub(crate) const COMPOSED: &str = "components";
 
@@ -133,14 +129,14 @@ fn composed(quantity: &Quantity, figures: &InputFigures, digits: u32) -> BudgetC
     line[0] = text::plain(&quantity.name);
     line[1] = estimate;
     line[2] = uncertainty;
-    line[3] = text::plain(quantity.unit.text());
+    line[3] = unit_text(&quantity.unit);
     line[4] = COMPOSED.to_owned();
     line[5] = effective(figures.dof, true);
     line
 }
 
 fn lines(task: &Task, output: &Quantity, gum: &Gum, digits: u32) -> Vec<BudgetCells> {
-    let inputs = input_rows(task, gum).into_iter().map(|row| {
+    let inputs = page_rows(task, gum).into_iter().map(|row| {
         let (variable, line) = match row {
             InputRow::Composed(quantity, figures) => return composed(quantity, &figures, digits),
             InputRow::Variable(variable, line) => (variable, line),
@@ -151,7 +147,7 @@ fn lines(task: &Task, output: &Quantity, gum: &Gum, digits: u32) -> Vec<BudgetCe
             text::plain(&variable.name),
             estimate,
             uncertainty,
-            text::plain(variable.unit.text()),
+            unit_text(&variable.unit),
             distribution(&line),
             dof(line.dof),
             significant(line.sensitivity, SENSITIVITY_DIGITS),
@@ -165,7 +161,7 @@ fn lines(task: &Task, output: &Quantity, gum: &Gum, digits: u32) -> Vec<BudgetCe
     total[0] = text::plain(&output.name);
     total[1] = estimate;
     total[2] = combined.clone();
-    total[3] = text::plain(output.unit.text());
+    total[3] = unit_text(&output.unit);
     total[4] = "combined".to_owned();
     total[5] = effective(gum.dof, false);
     total[7] = combined;
@@ -212,7 +208,7 @@ fn distribution(line: &BudgetLine) -> String {
 /// What the columns mean.
 pub(crate) fn legend(output: &Quantity, columns: &[BudgetColumn]) -> String {
     let mut legend = if output.unit.has_name() {
-        let unit = output.unit.text();
+        let unit = unit_text(&output.unit);
         format!(
             "sensitivity coefficients in {unit} per unit of the quantity, contributions in {unit}"
         )

@@ -1,6 +1,7 @@
 //! Columns of the budget that are shown on request.
 
-use super::budget::{Budget, Field, InputRow, coefficient_lines, input_rows};
+use super::budget::{Budget, Field, coefficient_lines};
+use super::rows::{InputRow, page_rows};
 use super::text;
 use crate::number::{MISSING, exact, significant};
 use crate::sheet::ColumnKind;
@@ -153,7 +154,7 @@ fn all_cells(
     total: String,
 ) -> Vec<String> {
     let Budget { task, gum, .. } = *budget;
-    let inputs = input_rows(task, gum).into_iter().map(|row| match row {
+    let inputs = page_rows(task, gum).into_iter().map(|row| match row {
         InputRow::Composed(quantity, figures) => of_sum(quantity, &figures),
         InputRow::Variable(variable, line) => of_input(&line, variable),
     });

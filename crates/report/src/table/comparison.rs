@@ -374,7 +374,7 @@ impl<'a> Lines<'a> {
 pub(crate) fn sheet(figures: &OutputEvaluation, digits: u32) -> Option<Sheet> {
     let lines = Lines::of(figures, digits)?;
     let mut sheet = Sheet::default();
-    sheet.text("figure", lines.lines.iter().map(|line| line.name.to_owned()));
+    sheet.text("quantity", lines.lines.iter().map(|line| line.name.to_owned()));
     for (heading, texts) in lines.columns() {
         sheet.numbers(heading, texts);
     }
@@ -524,18 +524,64 @@ pub(crate) fn verdict(
     }
 }
 
+/// What is doubtful of a result, and which result is stated: one sentence without its subject; `None`
+/// if clause 8 of JCGM 101 validates the GUM interval, or without trials.
+pub(crate) fn doubt(figures: &OutputEvaluation, settings: &Settings) -> Option<String> {
+    let monte_carlo = figures.monte_carlo.as_ref()?;
+    let taken = taken(figures, monte_carlo, settings);
+    let Some(validation) = &figures.validation else {
+        return Some(format!("there is no GUM interval. {taken}"));
+    };
+    match validation.gum_valid {
+        Some(true) => None,
+        Some(false) => {
+            let cause = figures.agreement.map_or("", |agreement| {
+                match agreement.cause(settings.statement_tolerance) {
+                    DifferenceCause::DegreesOfFreedom => " because of few degrees of freedom",
+                    DifferenceCause::Shape => {
+                        " because of the shape of a distribution or a nonlinear model"
+                    }
+                }
+            });
+            Some(format!("GUM interval not validated (JCGM 101, clause 8){cause}. {taken}"))
+        }
+        None => Some(
+            "undecided whether the GUM interval is validated (JCGM 101, clause 8); more trials \
+             decide."
+                .to_owned(),
+        ),
+    }
+}
+
+/// The decision about an output with a tolerance, and the probability that it conforms.
+pub(crate) fn decided(
+    output: &Quantity,
+    found: &Conformity,
+    (trials, coverage): (Option<u64>, Coverage),
+) -> String {
+    let trials = trials.filter(|_| found.stated_uncertainty.is_none());
+    format!(
+        "{} by {}; tolerance {}, conforms with a probability of {} %.",
+        decision(found),
+        rule(found, coverage),
+        limits_text(output, &found.tolerance, None),
+        percent_of(found, found.probability, trials).text()
+    )
+}
+
 /// The comparison of the two intervals.
 fn clause_8(output: &Quantity, figures: &OutputEvaluation, monte_carlo: &MonteCarlo) -> String {
     let Some(validation) = &figures.validation else {
-        return "JCGM 101, clause 8: there is no GUM interval to compare; take the Monte Carlo one."
+        return "JCGM 101, clause 8: there is no GUM interval to compare; the Monte Carlo interval \
+                is stated."
             .to_owned();
     };
     let Validation { digits, tolerance, d_low, d_high, gum_valid } = *validation;
     let [low_error, high_error] = monte_carlo.errors.symmetric_interval;
     if low_error.is_nan() || high_error.is_nan() {
         return format!(
-            "JCGM 101, clause 8: undecided whether the GUM interval is valid here: {} trials are so \
-             few that the ends of the Monte Carlo interval are the extreme ones.",
+            "JCGM 101, clause 8: undecided whether the GUM interval is validated: with only {} trials \
+             the endpoints of the Monte Carlo interval are the extreme trials.",
             text::grouped(monte_carlo.trials)
         );
     }
@@ -543,18 +589,20 @@ fn clause_8(output: &Quantity, figures: &OutputEvaluation, monte_carlo: &MonteCa
     let high = in_unit(&difference(d_high, high_error), &output.unit);
     let tolerance = in_unit(&significant(tolerance, 1), &output.unit);
     let plural = if digits == 1 { "" } else { "s" };
-    let limit = format!("the numerical tolerance {tolerance} ({digits} digit{plural})");
-    let ends = format!("its ends lie d_low = {low} and d_high = {high} from the Monte Carlo ones");
+    let limit = format!("the numerical tolerance δ = {tolerance} ({digits} digit{plural})");
+    let ends = format!(
+        "its endpoints differ from the Monte Carlo endpoints by {low} and {high}"
+    );
     match gum_valid {
         Some(true) => {
-            format!("JCGM 101, clause 8: the GUM interval is valid here: {ends}, within {limit}.")
+            format!("JCGM 101, clause 8: the GUM interval is validated: {ends}, within {limit}.")
         }
         Some(false) => format!(
-            "JCGM 101, clause 8: the GUM interval is not valid here: {ends}, beyond {limit}."
+            "JCGM 101, clause 8: the GUM interval is not validated: {ends}, more than {limit}."
         ),
         None => format!(
-            "JCGM 101, clause 8: undecided whether the GUM interval is valid here: {ends}, too near \
-             to {limit} for {} trials{} to tell.",
+            "JCGM 101, clause 8: undecided whether the GUM interval is validated: {ends}, too near to \
+             {limit} for {} trials{}.",
             text::grouped(monte_carlo.trials),
             of_results(figures, monte_carlo)
         ),
@@ -567,16 +615,16 @@ fn cause(figures: &OutputEvaluation, allowed: f64) -> Option<String> {
     let difference = significant(100.0 * agreement.difference, 2);
     Some(match agreement.cause(allowed) {
         DifferenceCause::DegreesOfFreedom => format!(
-            "The cause is few degrees of freedom: with infinite ones the ends differ by \
-             {difference} % of U."
+            "The cause is few degrees of freedom: with infinite degrees of freedom the endpoints \
+             differ by {difference} % of U."
         ),
         DifferenceCause::Shape if agreement.at_infinite_dof => format!(
-            "The cause is the shape of a distribution or a model that is not linear: also with \
-             infinite degrees of freedom the ends differ by {difference} % of U."
+            "The cause is the shape of a distribution or a nonlinear model: also with infinite \
+             degrees of freedom the endpoints differ by {difference} % of U."
         ),
         DifferenceCause::Shape => format!(
-            "The cause is the shape of a distribution or a model that is not linear: the ends \
-             differ by {difference} % of U."
+            "The cause is the shape of a distribution or a nonlinear model: the endpoints differ by \
+             {difference} % of U."
         ),
     })
 }
@@ -588,7 +636,7 @@ fn taken(figures: &OutputEvaluation, monte_carlo: &MonteCarlo, settings: &Settin
         return "U is stated by the law of propagation.".to_owned();
     }
     let kind = if monte_carlo.stated_interval().shortest { "shortest" } else { "symmetric" };
-    format!("Take the {kind} Monte Carlo interval.")
+    format!("The {kind} Monte Carlo interval is stated.")
 }
 
 /// How few the trials of saved results among the inputs are, where there are fewer than here.

@@ -9,6 +9,7 @@ use comfy_table::{
 
 use super::{USUAL, width};
 use crate::number::align;
+use crate::printed;
 use crate::sheet::{ColumnKind, Sheet};
 
 /// Spaces between columns.
@@ -73,7 +74,9 @@ impl Grid {
                 let cells = column.cells.iter().cloned();
                 let header = column.narrow.as_ref().filter(|_| narrow).unwrap_or(&column.header);
                 match column.kind {
-                    ColumnKind::Numbers => grid.numbers(header, cells),
+                    ColumnKind::Numbers => {
+                        grid.numbers(header, cells.map(|cell| printed::text(&cell)));
+                    }
                     ColumnKind::Text | ColumnKind::Equations => {
                         grid.text_from(header, LEAST_TEXT, cells)
                     }

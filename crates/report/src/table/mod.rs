@@ -5,6 +5,8 @@ mod columns;
 pub(super) mod comparison;
 pub(super) mod correlations;
 mod grid;
+pub(super) mod rows;
+pub(super) mod shares;
 pub(super) mod sweep;
 mod text;
 mod width;
@@ -14,10 +16,11 @@ pub use grid::Grid;
 pub use text::{grouped, plain, wrapped};
 pub(crate) use text::{one_line, printable};
 use width::USUAL;
-pub use width::within_width;
-pub(crate) use width::{text_width, width};
+pub use width::{Screen, within_screen, within_width};
+pub(crate) use width::{shows_print, text_width, width};
 
 use super::number::exact;
+use super::printed;
 use gumption_engine::decimal::to_position;
 use gumption_engine::model::{InputQuantity, Quantity};
 use gumption_engine::propagate::{Evaluation, RowEvaluation};
@@ -83,7 +86,7 @@ pub(super) const NO_BUDGET: &str =
 pub(super) fn title_text(quantity: &Quantity) -> String {
     let mut line = plain(&quantity.name);
     if quantity.unit.has_name() {
-        line += &format!(" in {}", plain(quantity.unit.text()));
+        line += &format!(" in {}", unit_text(&quantity.unit));
     }
     if !quantity.about.trim().is_empty() {
         line += &format!(": {}", plain(&quantity.about));
@@ -143,7 +146,12 @@ pub(crate) fn conditions_text(conditions: &[Quantity], values: &[f64]) -> String
     parts.join(", ")
 }
 
-/// A number with its unit, if that has a name.
+/// A number with its unit, if the unit has a name, in the notation of the page.
 pub(crate) fn in_unit(number: &str, unit: &Unit) -> String {
-    plain(&unit.after(number))
+    plain(&printed::with_unit(number, unit))
+}
+
+/// The text of a unit in the notation of the page.
+pub(crate) fn unit_text(unit: &Unit) -> String {
+    plain(&printed::unit(unit))
 }

@@ -3,7 +3,7 @@
 use std::collections::BTreeMap;
 
 use super::comparison::{decision, limits_text, rule};
-use super::{row_numbers, text};
+use super::{row_numbers, text, unit_text};
 use crate::evaluation::Taken;
 use crate::number::{MISSING, exact, justified, place_of_ends, position, rounded, significant, to};
 use crate::sheet::{Figure, Sheet};
@@ -39,8 +39,7 @@ pub(crate) fn taken(settings: &Settings, rows: &[RowEvaluation], output: usize) 
         _ => format!("in all rows but {}", of(&others)),
     };
     Some(format!(
-        "The coverage interval to be taken is that of the Monte Carlo method, and not estimate ± U, \
-         {place}."
+        "The stated coverage interval is the Monte Carlo interval, not estimate ± U, {place}."
     ))
 }
 
@@ -93,8 +92,8 @@ pub(crate) fn explained<'a>(
 ) -> Option<&'static str> {
     let mut lines = outputs.map(|output| line(Some(output), digits));
     lines.any(|line| line.is_decided_apart).then_some(
-        "The estimate that decides is the value that is stated: where clause 8 of JCGM 101 refutes the \
-         GUM, the expectation of the output's distribution, if the distribution has a variance.",
+        "The estimate that decides is the stated value: if clause 8 of JCGM 101 refutes the GUM \
+         interval, the expectation of the output's distribution, if it has a variance.",
     )
 }
 
@@ -168,7 +167,7 @@ pub(crate) fn summary(task: &Task, row: &RowEvaluation, digits: u32) -> Sheet {
     let mut sheet = Sheet::default();
     sheet.text("output", outputs.iter().map(|output| text::plain(&output.quantity.name)));
     answer(&mut sheet, &lines, has_trials(row));
-    let unit = |output: &Output| text::plain(output.quantity.unit.text());
+    let unit = |output: &Output| unit_text(&output.quantity.unit);
     sheet.units("unit", outputs.iter().map(unit));
     sheet
 }
@@ -280,7 +279,7 @@ fn has_trials(row: &RowEvaluation) -> bool {
 fn header(condition: &Quantity) -> String {
     let name = text::plain(&condition.name);
     if condition.unit.has_name() {
-        format!("{name}\nin {}", text::plain(condition.unit.text()))
+        format!("{name}\nin {}", unit_text(&condition.unit))
     } else {
         name
     }
@@ -325,8 +324,8 @@ fn line(output: Option<&OutputEvaluation>, digits: u32) -> SweepLine {
     };
     let validation = output.and_then(|output| output.validation);
     let verdict = match validation.map(|validation| validation.gum_valid) {
-        Some(Some(true)) => "valid",
-        Some(Some(false)) => "not valid",
+        Some(Some(true)) => "validated",
+        Some(Some(false)) => "not validated",
         Some(None) => "undecided",
         None => MISSING,
     };

@@ -2,6 +2,7 @@
 
 use super::grid::Grid;
 use super::text_width;
+use crate::printed;
 use gumption_text::is_obeyed;
 
 /// Characters of a text that the page shows at most: twenty lines.
@@ -33,7 +34,7 @@ pub(crate) fn printable(text: &str) -> String {
 
 /// A paragraph within the width of the page, ending in a newline; nothing for an empty text.
 pub fn wrapped(text: &str) -> String {
-    let text = one_line(text);
+    let text = printed::text(&one_line(text));
     if text.is_empty() {
         return String::new();
     }

@@ -225,12 +225,12 @@ fn summary(found: &[RecomputedExample]) -> String {
 
 /// A page for the records, in Markdown.
 pub fn markdown(found: &[RecomputedExample]) -> String {
-    document::markdown(&page(found))
+    document::markdown(|| page(found))
 }
 
 /// The same page as one self-contained HTML file.
 pub fn html(found: &[RecomputedExample]) -> String {
-    document::html(&page(found))
+    document::html(|| page(found))
 }
 
 fn page(found: &[RecomputedExample]) -> Document {

@@ -7,9 +7,9 @@ use crate::certificate::CertificateReport;
 use crate::certificate::regions::{Covered, covered};
 use crate::certificate::sentences::SentenceLanguage;
 use crate::certificate::stated::StatedRow;
-use crate::certificate::units::printed;
 use crate::certificate::words::{self, Words, localized};
 use crate::number::{exact, rounded, significant};
+use crate::printed::with_symbols;
 use gumption_analysis::certificate::contents::{Language, Localized};
 use gumption_engine::propagate::JointRegion;
 use gumption_units::Unit;
@@ -60,7 +60,8 @@ fn about(report: &CertificateReport<'_>, of: &Covered<'_>, language: Language) -
     let mut said: Vec<String> = of.rows.iter().map(|row| named(report, row, language)).collect();
     let found = of.region.monte_carlo.as_ref();
     if let Some(smallest) = found.and_then(|found| found.smallest.as_ref().ok()) {
-        let units = of.rows.iter().map(|row| printed(&row.quantity.unit).text().trim().to_owned());
+        let units =
+            of.rows.iter().map(|row| with_symbols(&row.quantity.unit).text().trim().to_owned());
         let units: Vec<String> = units.filter(|unit| !matches!(unit.as_str(), "" | "1")).collect();
         let number = SentenceLanguage::by_itself(report, language)
             .in_marks(&significant(smallest.volume, 3));

@@ -9,11 +9,11 @@ use crate::certificate::functions::{self, At};
 use crate::certificate::sentences::SentenceLanguage;
 use crate::certificate::stated;
 use crate::certificate::stated::{StatedRow, UnitsAre};
-use crate::certificate::units::printed;
 use crate::certificate::words::{self, Words, localized};
 use crate::certificate::{CertificateReport, file_name, json, sentences};
 use crate::fits;
 use crate::number::exact;
+use crate::printed::with_symbols;
 use crate::sheet::Figure;
 use crate::table::in_unit;
 use gumption_analysis::certificate::Basis;
@@ -158,7 +158,7 @@ fn without_probability(
 ) -> String {
     let of = SentenceLanguage::by_itself(report, language);
     let [expanded, factor] = [row.expanded().text, row.factor().text].map(|n| of.in_marks(&n));
-    format!(", U = {}, k = {factor}", in_unit(&expanded, &printed(&row.quantity.unit)))
+    format!(", U = {}, k = {factor}", in_unit(&expanded, &with_symbols(&row.quantity.unit)))
 }
 
 /// A list of numbers in one unit.

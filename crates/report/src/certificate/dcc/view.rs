@@ -1,7 +1,7 @@
 //! A stylesheet (XSLT 1.0) that displays a digital certificate.
 
-use crate::certificate::units::printed_text;
 use crate::certificate::words::{self, Words};
+use crate::printed::unit_text;
 use gumption_analysis::certificate::contents::Language;
 use gumption_units::{Prefix, Symbol};
 
@@ -80,7 +80,7 @@ fn prefixes() -> String {
 fn symbols() -> String {
     let of = |symbol: &Symbol| {
         let name = symbol.dsi_name()?;
-        Some(case(name, &printed_text(symbol.name())))
+        Some(case(name, &unit_text(symbol.name())))
     };
     let others = [case("kilogram", "kg"), case("one", "1")].concat();
     gumption_units::symbols().filter_map(of).collect::<String>() + &others

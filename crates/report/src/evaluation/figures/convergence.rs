@@ -106,9 +106,9 @@ pub(in crate::evaluation) fn convergence(
     };
     let kind = if shortest { "shortest" } else { "symmetric" };
     let caption = format!(
-        "How the Monte Carlo figures settle: those of the first {} to {} trials (dots), each less that \
-         of all {} trials (line), with one numerical standard error either way (band). The ends are \
-         those of the {kind} coverage interval.",
+        "Convergence: difference between the result after {} to {} trials (dots) and the result of \
+         all {} trials (line), with ± one numerical standard error (band). The endpoints are those of \
+         the {kind} coverage interval.",
         grouped(stages.first()?.trials),
         grouped(stages.get(stages.len() - 2)?.trials),
         grouped(last.trials),
@@ -140,7 +140,7 @@ fn settlings(stages: &[MonteCarlo], shortest: bool) -> Vec<Settling> {
     let uncertainty = of("standard uncertainty", &|of| {
         Some((of.standard_uncertainty?, of.errors.standard_uncertainty.unwrap_or(f64::NAN)))
     });
-    let ends = [of("lower end", &end(0)), of("upper end", &end(1))];
+    let ends = [of("lower endpoint", &end(0)), of("upper endpoint", &end(1))];
     let found = [estimate.or_else(median), uncertainty].into_iter().chain(ends);
     found.flatten().collect()
 }

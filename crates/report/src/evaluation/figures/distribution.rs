@@ -247,7 +247,7 @@ fn law_legend(area: &Area<'_>, gum: Option<&Gum>, room: f64) -> Drawn {
 fn density_legend(area: &Area<'_>, room: f64, unit: &Unit) -> Drawn {
     said(area, "density", (14.0, 64.0), room)?;
     if unit.has_name() {
-        let unit = plain(unit.text());
+        let unit = unit_text(unit);
         let is_one = unit.chars().all(|c| c.is_alphanumeric());
         let unit = if is_one { unit } else { format!("({unit})") };
         said(area, &format!("in 1/{unit}"), (14.0, 80.0), room)?;

@@ -122,7 +122,7 @@ pub(in crate::evaluation) fn sweep(
         _ if trials == 0 => [propagated.to_owned(), "U alone".to_owned()],
         rest => {
             let of_trials = "estimates with their coverage intervals by the Monte Carlo method, where \
-                             the GUM interval is not valid";
+                             the GUM interval is not validated";
             let others = format!("; blue: {propagated}");
             let others = if rest == 0 { "" } else { &others };
             [
@@ -192,9 +192,5 @@ fn about(
 /// Name and unit.
 fn axis(quantity: &Quantity) -> String {
     let name = plain(&quantity.name);
-    if quantity.unit.has_name() {
-        format!("{name} in {}", plain(quantity.unit.text()))
-    } else {
-        name
-    }
+    if quantity.unit.has_name() { format!("{name} in {}", unit_text(&quantity.unit)) } else { name }
 }

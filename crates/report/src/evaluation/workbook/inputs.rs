@@ -37,7 +37,7 @@ const HEADERS: [&str; 12] = [
 ];
 
 /// What stands beside figures that formulas do not follow, once an input is another.
-const OLD: &str = "inputs were changed: these figures are not of these inputs";
+const OLD: &str = "inputs were changed: not of these inputs";
 
 /// The share by which a number in a formula may differ from the same in a cell: spreadsheets cut it to 15
 /// digits.
@@ -67,6 +67,20 @@ impl Places {
         }
         let formula = format!("IF({}>0,\"{what}: {OLD}\",\"{what}\")", self.changed);
         leaf.formula(at, &formula, &Cached::Text(what.to_owned()), None, Look::Words)
+    }
+
+    /// A word that holds for the inputs as evaluated: once an input is changed, the cell says so.
+    pub(super) fn word(
+        &self,
+        leaf: &mut Leaf,
+        at: (u32, u16),
+        word: &str,
+    ) -> Result<(), XlsxError> {
+        if self.changed.is_empty() {
+            return leaf.word(at, word, Look::Plain);
+        }
+        let formula = format!("IF({}>0,\"{OLD}\",\"{word}\")", self.changed);
+        leaf.formula(at, &formula, &Cached::Text(word.to_owned()), None, Look::Plain)
     }
 }
 

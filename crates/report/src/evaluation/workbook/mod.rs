@@ -72,8 +72,7 @@ fn write(report: &EvaluationReport<'_>, shown: &Shown<'_>) -> Result<Vec<u8>, Xl
         budgets.push(leaf);
     }
     results::write(&mut results, report, (&places, &totals))?;
-    for leaf in [results].into_iter().chain(measurement).chain([inputs]).chain(budgets).chain(steps)
-    {
+    for leaf in [results, inputs].into_iter().chain(budgets) {
         book.push(leaf)?;
     }
     if let [row] = report.evaluation.rows.as_slice()
@@ -98,6 +97,9 @@ fn write(report: &EvaluationReport<'_>, shown: &Shown<'_>) -> Result<Vec<u8>, Xl
         let mut found = Document::default();
         regions::sections(&mut found, task, row);
         worksheet(&mut book, "Regions", &found, Some(&places))?;
+    }
+    for leaf in measurement.into_iter().chain(steps) {
+        book.push(leaf)?;
     }
     about(book, report, shown)
 }
@@ -209,7 +211,7 @@ fn about(
     shown: &Shown<'_>,
 ) -> Result<Vec<u8>, XlsxError> {
     let mut leaf = book.leaf("About")?;
-    leaf.title(0, "To repeat this")?;
+    leaf.title(0, "Reproducing this result")?;
     let mut row = 2;
     for (name, value) in repeat::lines(report, shown) {
         leaf.text(row, 0, &name)?;

@@ -137,7 +137,8 @@ pub(super) fn write(
                 at += 1;
             }
             let cells = totals.get(output).and_then(|rows| rows.get(number)?.as_ref());
-            figures(leaf, line, (declared, found), evaluation.settings.digits_on_pages(), cells)?;
+            let digits = evaluation.settings.digits_on_pages();
+            figures(leaf, line, (declared, found), digits, (places, cells))?;
             if let Some(beside) = found.capability.as_deref() {
                 let digits = evaluation.settings.digits_on_pages();
                 // what is below the capability must not be stated (ILAC-P14)
@@ -158,9 +159,9 @@ pub(super) fn write(
     if !totals.is_empty() {
         leaf.line(
             at + 1,
-            "Figures of the GUM follow what is changed under Inputs, and so do limits of acceptance and \
-             decisions by its estimate; those of the Monte Carlo method, and decisions by its estimate, \
-             are of the inputs as evaluated.",
+            "Results of the GUM, limits of acceptance and decisions by the estimate of the GUM follow \
+             changes under Inputs. Results of the Monte Carlo method and decisions by its estimate are \
+             of the inputs as evaluated.",
         )?;
     } else {
         leaf.line(
@@ -177,7 +178,7 @@ fn figures(
     line: FigureLine,
     (output, found): (&Output, &OutputEvaluation),
     digits: u32,
-    cells: Option<&[String; 7]>,
+    (places, cells): (&Places, Option<&[String; 7]>),
 ) -> Result<(), XlsxError> {
     let quantity = &output.quantity;
     let (row, column) = line.at(1);
@@ -193,12 +194,12 @@ fn figures(
     if let Some(figures) = &found.monte_carlo {
         trials(leaf, line, figures, digits)?;
         let verdict = match found.validation.map(|validation| validation.gum_valid) {
-            Some(Some(true)) => "valid",
-            Some(Some(false)) => "not valid",
+            Some(Some(true)) => "validated",
+            Some(Some(false)) => "not validated",
             Some(None) => "undecided",
             None => "-",
         };
-        leaf.word(line.at(VERDICT), verdict, Look::Plain)?;
+        places.word(leaf, line.at(VERDICT), verdict)?;
     }
     match &found.conformity {
         Some(conformity) => decided(leaf, line, conformity, (output, found, digits)),

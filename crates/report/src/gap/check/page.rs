@@ -10,13 +10,13 @@ use gumption_gap::check::BlindCheckScores;
 /// The scores of a blind check as a page for a terminal of at most 100 columns, or as many as it has
 /// ([`crate::within_width`]).
 pub fn table(design: &CheckedDesign, report: &BlindCheckScores, provenance: &Provenance) -> String {
-    document::text(&page(design, report, provenance, true))
+    document::text(|| page(design, report, provenance, true))
 }
 
 /// The scores of a blind check as one HTML file with figures that needs nothing else: it loads
 /// nothing and runs nothing, reads in light and dark and prints on A4.
 pub fn html(design: &CheckedDesign, report: &BlindCheckScores, provenance: &Provenance) -> String {
-    document::html(&page(design, report, provenance, false))
+    document::html(|| page(design, report, provenance, false))
 }
 
 /// What was done, the scores, whether probabilities mean what they say, the most frequent wrong

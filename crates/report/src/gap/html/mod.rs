@@ -25,5 +25,5 @@ use gumption_gap::Diagnosis;
 /// The diagnosis as one HTML file with figures that needs nothing else: it loads nothing and runs
 /// nothing, reads in light and dark and prints on A4.
 pub fn html(diagnosis: &Diagnosis, provenance: &Provenance) -> String {
-    document::html(&super::page::document(diagnosis, provenance, false))
+    document::html(|| super::page::document(diagnosis, provenance, false))
 }

@@ -1,14 +1,21 @@
-//! Units in typographic notation: `µL` for `uL`, `Ω` for `ohm`, `°C` for `degC`. JSON and CSV keep
-//! the text of the model file.
+//! Units with the symbols of the SI brochure: `µL` for `uL`, `Ω` for `ohm`, `°C` for `degC`, `°` for
+//! `deg`.
 
 use gumption_units::{Factor, FactorBase, Unit};
 
 /// Symbols in letters of any keyboard, as in files, and those of the SI brochure.
-const SYMBOLS: [(&str, &str); 4] =
-    [("ohm", "Ω"), ("degC", "°C"), ("degF", "°F"), ("dBuV", "dB\u{b5}V")];
+const SYMBOLS: [(&str, &str); 7] = [
+    ("ohm", "Ω"),
+    ("deg", "°"),
+    ("arcmin", "′"),
+    ("arcsec", "″"),
+    ("degC", "°C"),
+    ("degF", "°F"),
+    ("dBuV", "dB\u{b5}V"),
+];
 
 /// A unit in typographic notation: the same unit, written as in the file apart from its symbols.
-pub(super) fn printed(unit: &Unit) -> Unit {
+pub(crate) fn with_symbols(unit: &Unit) -> Unit {
     let mut text = String::new();
     let mut rest = unit.text();
     while let Some(first) = rest.chars().next() {
@@ -42,28 +49,28 @@ fn symbol(factor: &Factor) -> String {
 }
 
 /// A unit's text in typographic notation; a text that is not a unit is unchanged.
-pub(super) fn printed_text(text: &str) -> String {
-    Unit::parse(text).map_or_else(|_| text.to_owned(), |unit| printed(&unit).text().to_owned())
+pub(crate) fn unit_text(text: &str) -> String {
+    Unit::parse(text).map_or_else(|_| text.to_owned(), |unit| with_symbols(&unit).text().to_owned())
 }
 
 /// A value as in files, `20 degC`, with its unit in typographic notation.
-pub(super) fn printed_value(value: &str) -> String {
+pub(crate) fn value_text(value: &str) -> String {
     match value.trim().split_once(' ') {
         Some((number, unit)) if number.parse::<f64>().is_ok() => {
-            format!("{number} {}", printed_text(unit.trim()))
+            format!("{number} {}", unit_text(unit.trim()))
         }
         _ => value.to_owned(),
     }
 }
 
 /// A formula with the units of its literals, `20 [degC]`, in typographic notation.
-pub(super) fn printed_formula(formula: &str) -> String {
+pub(crate) fn formula_text(formula: &str) -> String {
     let mut parts = formula.split('[');
     let mut made = parts.next().unwrap_or_default().to_owned();
     for part in parts {
         made.push('[');
         match part.split_once(']') {
-            Some((unit, behind)) => made += &format!("{}]{behind}", printed_text(unit)),
+            Some((unit, behind)) => made += &format!("{}]{behind}", unit_text(unit)),
             None => made += part,
         }
     }
@@ -90,20 +97,22 @@ mod tests {
             ("umol mol^-1", "µmol mol^-1"),
             // the unified atomic mass unit is not a prefix
             ("u", "u"),
-            ("deg", "deg"),
+            ("deg", "°"),
+            ("deg/s", "°/s"),
+            ("urad", "µrad"),
             ("1", "1"),
             ("", ""),
         ];
         for (text, wanted) in cases {
             let unit = Unit::parse(text).unwrap();
-            let shown = printed(&unit);
+            let shown = with_symbols(&unit);
             assert_eq!(shown.text(), wanted, "{text}");
             assert_eq!(shown.factors(), unit.factors(), "{text}");
         }
-        assert_eq!(printed_value("20 degC"), "20 °C");
-        assert_eq!(printed_value("20"), "20");
-        assert_eq!(printed_value("upper end"), "upper end");
-        assert_eq!(printed_formula("R*(1 + a*(t - 23 [degC]))"), "R*(1 + a*(t - 23 [°C]))");
-        assert_eq!(printed_formula("x[0] + 1 [nothing"), "x[0] + 1 [nothing");
+        assert_eq!(value_text("20 degC"), "20 °C");
+        assert_eq!(value_text("20"), "20");
+        assert_eq!(value_text("upper end"), "upper end");
+        assert_eq!(formula_text("R*(1 + a*(t - 23 [degC]))"), "R*(1 + a*(t - 23 [°C]))");
+        assert_eq!(formula_text("x[0] + 1 [nothing"), "x[0] + 1 [nothing");
     }
 }

@@ -1,0 +1,137 @@
+//! Numbers and units as print has them: m/s², Ω, 35°, 5 × 10⁻⁷, a true minus and narrow spaces (SI
+//! brochure, 9th edition, 5.3 and 5.4).
+//!
+//! HTML, Markdown and figures have this notation, and text on a terminal that can show it. JSON, CSV,
+//! LaTeX, workbooks and text in a pipe have the notation of files: `m/s^2`, `ohm`, `5e-7`. Which one a
+//! page has is known while it is drawn: [`notation`] is on within [`in_print`].
+
+mod number;
+mod unit;
+
+pub(crate) use number::text as number_text;
+pub(crate) use unit::{formula_text, unit_text, value_text, with_symbols};
+
+use crate::table::shows_print;
+use gumption_units::Unit;
+use std::cell::Cell;
+
+/// How numbers and units are written.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub(crate) enum Notation {
+    /// As in files.
+    #[default]
+    File,
+    /// As in print.
+    Print,
+    /// As in print, with a decimal comma in figures. Tables have it by their documents, and sentences
+    /// in languages with a comma are written with it.
+    PrintWithComma,
+}
+
+thread_local! {
+    // each number of a page would need it as an argument; a thread draws one page at a time
+    static NOTATION: Cell<Notation> = const { Cell::new(Notation::File) };
+}
+
+/// Draws a page in a notation.
+pub(crate) fn in_print<R>(notation: Notation, draw: impl FnOnce() -> R) -> R {
+    /// Restores the notation also if `draw` panics.
+    struct Restore(Notation);
+    impl Drop for Restore {
+        fn drop(&mut self) {
+            NOTATION.set(self.0);
+        }
+    }
+    let _restore = Restore(NOTATION.replace(notation));
+    draw()
+}
+
+/// Draws a text page: in the notation of print on a terminal that can show it.
+pub(crate) fn on_terminal<R>(draw: impl FnOnce() -> R) -> R {
+    let notation = if shows_print() { Notation::Print } else { Notation::File };
+    in_print(notation, draw)
+}
+
+/// The notation of the page that is being drawn.
+pub(crate) fn notation() -> Notation {
+    NOTATION.get()
+}
+
+/// The text of a unit in the notation of the page.
+pub(crate) fn unit(unit: &Unit) -> String {
+    match notation() {
+        Notation::File => unit.text().to_owned(),
+        Notation::Print | Notation::PrintWithComma => {
+            number_text(with_symbols(unit).text()).replace('*', "\u{b7}")
+        }
+    }
+}
+
+/// A number with its unit, if the unit has a name, in the notation of the page; the number is as in
+/// files.
+pub(crate) fn with_unit(number: &str, of: &Unit) -> String {
+    if !of.has_name() {
+        return number.to_owned();
+    }
+    let text = unit(of);
+    // an angle in degrees, minutes or seconds is written without a space (SI brochure, 5.4.3)
+    let is_angle = matches!(text.as_str(), "°" | "′" | "″");
+    format!("{number}{}{text}", if is_angle { "" } else { " " })
+}
+
+/// A text with its numbers and exponents in the notation of the page.
+pub(crate) fn text(text: &str) -> String {
+    match notation() {
+        Notation::File => text.to_owned(),
+        Notation::Print | Notation::PrintWithComma => number_text(text),
+    }
+}
+
+/// A text in a figure.
+pub(crate) fn figure_text(text: &str) -> String {
+    let written = self::text(text);
+    match notation() {
+        Notation::PrintWithComma => with_comma(&written),
+        Notation::File | Notation::Print => written,
+    }
+}
+
+/// A number with a decimal comma instead of its point.
+pub(crate) fn with_comma(text: &str) -> String {
+    let letters: Vec<char> = text.chars().collect();
+    let is_digit = |place: Option<usize>| {
+        place.and_then(|place| letters.get(place)).is_some_and(char::is_ascii_digit)
+    };
+    let letters = letters.iter().enumerate().map(|(place, letter)| match letter {
+        '.' if is_digit(place.checked_sub(1)) && is_digit(Some(place + 1)) => ',',
+        letter => *letter,
+    });
+    letters.collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_point_between_digits_becomes_a_comma() {
+        assert_eq!(with_comma("k = 2.00, up to -0.5e-3."), "k = 2,00, up to -0,5e-3.");
+        assert_eq!(with_comma("z.re = 5. Then"), "z.re = 5. Then");
+    }
+
+    #[test]
+    fn a_page_has_one_notation() {
+        let unit_of = |text: &str| Unit::parse(text).unwrap();
+        let shown = || {
+            let values = [("5e-7", "m/s^2"), ("35", "deg"), ("-4.5", "kg*m^2"), ("0.5", "1")];
+            values.map(|(number, unit)| text(&with_unit(number, &unit_of(unit))))
+        };
+        assert_eq!(shown(), ["5e-7 m/s^2", "35 deg", "-4.5 kg*m^2", "0.5"]);
+        assert_eq!(
+            in_print(Notation::Print, shown),
+            ["5\u{202f}×\u{202f}10⁻⁷ m/s²", "35°", "\u{2212}4.5 kg·m²", "0.5"]
+        );
+        assert_eq!(in_print(Notation::PrintWithComma, || figure_text("-4.5")), "\u{2212}4,5");
+        assert_eq!(notation(), Notation::File);
+    }
+}
