@@ -38,15 +38,14 @@ pub(super) fn screen() -> Screen {
     if !io::stdout().is_terminal() {
         return Screen { columns: PIPED, shows_print: false };
     }
-    let columns =
-        terminal_size::terminal_size().map_or(PIPED, |(width, _)| usize::from(width.0));
+    let columns = terminal_size::terminal_size().map_or(PIPED, |(width, _)| usize::from(width.0));
     Screen { columns, shows_print: has_utf8() }
 }
 
 /// Whether the locale has UTF-8: the first variable that is set decides (POSIX, 8.2). Consoles of
 /// Windows have it.
 fn has_utf8() -> bool {
-    let is_set = |name: &&str| std::env::var_os(name).is_some_and(|value| !value.is_empty());
+    let is_set = |name: &&&str| std::env::var_os(name).is_some_and(|value| !value.is_empty());
     let Some(name) = ["LC_ALL", "LC_CTYPE", "LANG"].iter().find(is_set) else {
         return cfg!(windows);
     };

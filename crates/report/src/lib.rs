@@ -38,11 +38,12 @@ pub use answer::{on_one_line, pretty};
 pub use budget_template::budget_template;
 pub use csv::{csv, of_records as csv_of_records, write_csv};
 pub use evaluation::{
-    Extent, MOST_RESULTS, OutputParts, PageChoice, PageParts, ResultStatement, Shown, html, input_picture,
-    latex, markdown, page_parts, table, xlsx,
+    Extent, MOST_RESULTS, OutputParts, PageChoice, PageParts, ResultStatement, Shown, html,
+    input_picture, latex, markdown, page_parts, table, xlsx,
 };
 pub use html::{FigureSize, interactive, interactive_script_digest, page_style};
 pub use json::{json, write_json};
+pub use printed::with_comma;
 pub use samples::TrialsForm;
 pub use saved::{SaveError, saved, saved_result};
 pub(crate) use table::conditions_text;

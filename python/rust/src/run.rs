@@ -103,6 +103,7 @@ impl Ran {
             histograms: &drawn,
             convergence: &settled,
             replaced: &self.replaced,
+            extent: report::Extent::default(),
             language: words::Language::English,
             model: &self.file.source.text,
         };

@@ -178,11 +178,17 @@ fn filled(german: &str, captured: &[&str]) -> String {
             Some(":") => text_of(text).unwrap_or_else(|| text.to_owned()),
             Some(";") => replaced(text, &TEXTS.shapes, |name| format!("({name}, ")),
             Some("+") => replaced(text, &TEXTS.between, str::to_owned),
-            _ => text.to_owned(),
+            _ => with_commas(text),
         };
         rest = after;
     }
     made + rest
+}
+
+/// A text with a decimal comma in its numbers. What is between backticks is code and unchanged.
+fn with_commas(text: &str) -> String {
+    let is_code = text.contains("<code>") || text.contains('`');
+    if is_code { text.to_owned() } else { gumption_report::with_comma(text) }
 }
 
 fn replaced(text: &str, all: &[Pair], form: impl Fn(&str) -> String) -> String {

@@ -7,7 +7,7 @@ use maud::{Markup, html};
 
 use super::{Block, Document, Head};
 use crate::html::{FigureSize, bare_figure, figure, page_in, raised, table};
-use crate::printed::{Notation, in_print};
+use crate::printed::{Notation, in_print, notation};
 
 /// Numbers of sections for which a page has a table of contents: fewer are visible at once, more do
 /// not help.
@@ -61,9 +61,10 @@ fn contents(document: &Document) -> Markup {
 /// The blocks of a document alone, for a page with the same style; figures are not numbered,
 /// because the page may have others.
 pub(crate) fn fragment(document: &Document, size: FigureSize) -> String {
+    let has_comma = document.comma || notation() == Notation::PrintWithComma;
     let part = |part: &Block| match part {
         Block::Figure(drawing) => bare_figure(drawing, size),
-        part => block(part, document.comma, &mut Counts::default()),
+        part => block(part, has_comma, &mut Counts::default()),
     };
     html! { @for one in &document.blocks { (part(one)) } }.into_string()
 }

@@ -11,7 +11,9 @@ use gumption_engine::task::{Settings, Task};
 /// The outputs of a row as lines: `a_x = (4.967 ± 0.018) m/s^2, k = 1.96, coverage probability 95 %`.
 pub(super) fn results(report: &EvaluationReport<'_>, row: &RowEvaluation) -> Vec<String> {
     let settings = &report.evaluation.settings;
-    of_outputs(report.task, row).map(|(output, found)| result(settings, &output.quantity, found)).collect()
+    of_outputs(report.task, row)
+        .map(|(output, found)| result(settings, &output.quantity, found))
+        .collect()
 }
 
 /// What is decided of outputs with a tolerance, and what is doubtful: one sentence for all outputs of

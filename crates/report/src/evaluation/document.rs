@@ -1,7 +1,7 @@
 //! The whole document.
 
 use super::{Extent, Shown, brief, figures, repeat, results, sweep};
-use crate::document::{Block, Document};
+use crate::document::{Block, Document, sentence};
 use crate::sheet::Sheet;
 use crate::statement;
 use crate::table;
@@ -13,8 +13,8 @@ use gumption_engine::task::Task;
 /// Outputs up to which their sections are not folded.
 const MOST_UNFOLDED: usize = 3;
 
-/// What a usual text page does not show.
-const MORE: &str = "All budgets, both methods, distributions, the model and the settings: --full.";
+/// How a usual text page becomes a full one.
+const MORE: &str = "Everything: --full.";
 
 /// The document of an evaluation: for one row of conditions everything about each output, for a
 /// sweep a table and a figure for each.
@@ -66,8 +66,7 @@ pub(super) fn text(report: &EvaluationReport<'_>, shown: &Shown<'_>) -> Document
             settings.push(table::settings_text(evaluation));
             settings.extend(table::stopped(evaluation));
             settings.retain(|said| !said.is_empty());
-            document.sentence(&settings.join("; "));
-            document.text(MORE);
+            document.text(format!("{} {MORE}", sentence(&settings.join("; "))));
         }
         Extent::Full => {
             document.remarks = remarks;
@@ -99,8 +98,8 @@ fn summary(document: &mut Document, report: &EvaluationReport<'_>, row: &RowEval
     }
 }
 
-/// The budget of a single output, or the shares of all inputs in those of several; the table of a
-/// sweep; and the distributions if they are drawn.
+/// The budget and both methods of a single output; the results of several outputs and the shares of the
+/// inputs; the table of a sweep; and the distributions if they are drawn.
 fn usual(document: &mut Document, report: &EvaluationReport<'_>, shown: &Shown<'_>) {
     let EvaluationReport { task, evaluation, .. } = *report;
     let [row] = evaluation.rows.as_slice() else {
@@ -113,6 +112,9 @@ fn usual(document: &mut Document, report: &EvaluationReport<'_>, shown: &Shown<'
     };
     let together = (row.outputs.len() > 1 && shown.columns.is_empty())
         .then(|| table::shares::sheet(task, row, digits));
+    if row.outputs.len() > 1 {
+        summary(document, report, row);
+    }
     match together {
         Some(Some(sheet)) => {
             document.text(table::shares::ABOUT);
@@ -125,6 +127,7 @@ fn usual(document: &mut Document, report: &EvaluationReport<'_>, shown: &Shown<'
                     document.section(section.title);
                 }
                 document.blocks.extend(section.budget.blocks);
+                document.blocks.extend(section.comparison.blocks);
             }
         }
     }

@@ -5,7 +5,9 @@ use super::{Shown, document, results};
 use crate::EvaluationReport;
 use crate::document::{Document, fragment};
 use crate::html::FigureSize;
+use crate::printed::{Notation, in_print};
 use crate::table::{conditions_text, title_text};
+use crate::words::Language;
 use gumption_engine::distribution::Distribution;
 
 /// The parts of a page, each as HTML that needs the style of [`crate::page_style`]. Whatever a file
@@ -50,8 +52,21 @@ pub struct PageChoice {
     pub row: usize,
 }
 
-/// The parts of the page of an evaluation.
+/// The parts of the page of an evaluation, with the decimal mark of the language in tables and figures.
 pub fn page_parts(
+    report: &EvaluationReport<'_>,
+    shown: &Shown<'_>,
+    size: FigureSize,
+    choice: PageChoice,
+) -> PageParts {
+    let notation = match shown.language {
+        Language::English => Notation::Print,
+        Language::German => Notation::PrintWithComma,
+    };
+    in_print(notation, || parts(report, shown, size, choice))
+}
+
+fn parts(
     report: &EvaluationReport<'_>,
     shown: &Shown<'_>,
     size: FigureSize,

@@ -1,5 +1,6 @@
 //! The curve with its band through the points, and the residuals below.
 
+use crate::table::unit_text;
 use plotters::element::{Circle, PathElement, Polygon};
 use plotters::style::Color;
 

@@ -4,6 +4,7 @@ use super::json::own_name;
 use super::{factor, places};
 use crate::number::{exact, significant, with_uncertainty};
 use crate::sheet::{Figure, Sheet};
+use crate::table::unit_text;
 use crate::{number, plain};
 use gumption_engine::decimal::to_digits;
 use gumption_engine::regression::CurveFunction;

@@ -4,6 +4,7 @@ use super::factor;
 use super::json::own_name;
 use crate::number::{degrees_of_freedom, exact, significant};
 use crate::plain;
+use crate::table::unit_text;
 use gumption_engine::regression::{Cross, Curve, CurveFunction, Spread};
 use gumption_engine::task::Coverage;
 

@@ -19,11 +19,6 @@ const STYLE: &str = include_str!("style.css");
 /// Only the page's own style and the pictures in it are loaded, whatever names a user chose.
 const POLICY: &str = "default-src 'none'; style-src 'unsafe-inline'; img-src data:";
 
-/// A whole page in English, with its title on every printed sheet.
-pub(super) fn page(title: &str, body: &Markup) -> String {
-    page_in("en", title, &Foot::of_title(title), body)
-}
-
 /// A whole page in a language, a code of ISO 639-1, with a footer for printed pages.
 pub(super) fn page_in(language: &str, title: &str, foot: &Foot, body: &Markup) -> String {
     let page = html! {

@@ -1,5 +1,6 @@
 //! A record as a figure: waveform with its fit, what the fit leaves, and spectra.
 
+use crate::table::unit_text;
 use plotters::element::{PathElement, Polygon};
 use plotters::style::Color;
 

@@ -96,8 +96,8 @@ pub(crate) fn figure_text(text: &str) -> String {
     }
 }
 
-/// A number with a decimal comma instead of its point.
-pub(crate) fn with_comma(text: &str) -> String {
+/// A text with a decimal comma instead of the point between two digits.
+pub fn with_comma(text: &str) -> String {
     let letters: Vec<char> = text.chars().collect();
     let is_digit = |place: Option<usize>| {
         place.and_then(|place| letters.get(place)).is_some_and(char::is_ascii_digit)

@@ -1,5 +1,6 @@
 //! Two outputs: trials, and the ellipse and the box of both methods.
 
+use crate::table::unit_text;
 use plotters::element::{Circle, PathElement};
 use plotters::style::Color;
 

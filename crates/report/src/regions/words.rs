@@ -3,6 +3,7 @@
 use crate::number::{degrees_of_freedom, exact, significant};
 use crate::plain;
 use crate::sheet::{Figure, Sheet};
+use crate::table::unit_text;
 use gumption_engine::decimal::to_position;
 use gumption_engine::propagate::RegionEvaluation;
 use gumption_engine::propagate::gum::Dof;

@@ -3,14 +3,14 @@
 use super::columns::{self, BudgetColumn};
 use super::rows::{InputRow, page_rows};
 use super::{Grid, coverage_text, text, unit_text};
-use crate::plot::horizontal_bar;
 use crate::number::{coefficient, exact, position, rounded, significant, with_uncertainty};
+use crate::plot::horizontal_bar;
 use crate::sheet::{ColumnKind, Figure, Sheet};
 use crate::subtotals::Subtotals;
 use gumption_engine::model::Quantity;
 use gumption_engine::propagate::InputFigures;
 use gumption_engine::propagate::gum::{BudgetLine, CorrelationLine, Dof, Gum};
-use gumption_engine::task::{Coverage, Settings, Task, Variable};
+use gumption_engine::task::{Coverage, Settings, Task};
 use gumption_units::Unit;
 
 /// Significant digits of sensitivity coefficients.

@@ -590,9 +590,7 @@ fn clause_8(output: &Quantity, figures: &OutputEvaluation, monte_carlo: &MonteCa
     let tolerance = in_unit(&significant(tolerance, 1), &output.unit);
     let plural = if digits == 1 { "" } else { "s" };
     let limit = format!("the numerical tolerance δ = {tolerance} ({digits} digit{plural})");
-    let ends = format!(
-        "its endpoints differ from the Monte Carlo endpoints by {low} and {high}"
-    );
+    let ends = format!("its endpoints differ from the Monte Carlo endpoints by {low} and {high}");
     match gum_valid {
         Some(true) => {
             format!("JCGM 101, clause 8: the GUM interval is validated: {ends}, within {limit}.")

@@ -3,8 +3,8 @@
 
 use super::{in_unit, text};
 use crate::number::exact;
-use gumption_engine::number::largest_first;
 use gumption_engine::model::Quantity;
+use gumption_engine::number::largest_first;
 use gumption_engine::propagate::InputFigures;
 use gumption_engine::propagate::gum::{BudgetLine, Gum};
 use gumption_engine::task::{Task, Variable};
@@ -54,7 +54,9 @@ pub(super) fn page_rows<'a>(task: &'a Task, gum: &Gum) -> Vec<InputRow<'a>> {
                 (f64::INFINITY, true)
             }
             InputRow::Variable(..) if is_constant(&row) => continue,
-            InputRow::Variable(_, line) => (line.contribution, !components.contains(&line.variable)),
+            InputRow::Variable(_, line) => {
+                (line.contribution, !components.contains(&line.variable))
+            }
         };
         let square = if contribution.is_finite() { contribution * contribution } else { 0.0 };
         match groups.last_mut() {

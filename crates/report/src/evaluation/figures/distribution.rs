@@ -1,13 +1,13 @@
 //! The distribution of an output: its trials, the density that the GUM gives it, and the coverage
 //! intervals of both.
 
+use crate::table::unit_text;
 use plotters::element::{Circle, Rectangle};
 use plotters::style::{Color, RGBColor};
 
 use super::curve;
 use crate::html::Drawing;
 use crate::number::{exact, position, significant, to};
-use crate::plain;
 use crate::plot::{
     AFTER, Anchor, Area, Axis, BEFORE, Drawn, EVEN, FAINT, FONT, INK, Layer, STRIP_AXIS, Strip,
     Titles, Write, centred, faded, line, px, shortened, stroke, svg_in_layers, write,

@@ -1,6 +1,7 @@
 //! A sweep: estimates with the intervals that are to be taken over a condition, and their half-lengths
 //! alone.
 
+use crate::table::unit_text;
 use gumption_engine::number::ascending;
 use plotters::element::PathElement;
 use plotters::style::RGBColor;
