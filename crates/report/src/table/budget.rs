@@ -20,7 +20,7 @@ const SENSITIVITY_DIGITS: u32 = 4;
 const MOST_COEFFICIENTS: usize = 500;
 
 /// Letters of the longest bar beside a share.
-const BAR: usize = 10;
+const BAR: usize = 8;
 
 /// Degrees of freedom above this are written as a power of ten.
 const MANY: f64 = 1e7;
@@ -94,7 +94,12 @@ impl Budget<'_> {
         let blank = sheet.rows().saturating_sub(bars.len());
         let blank = std::iter::repeat_n(String::new(), blank);
         with_bars.text("", bars.into_iter().chain(blank));
-        if Grid::of(&with_bars).natural_width() <= super::width() {
+        // the headers stay whole if they are whole without bars
+        let has_room = match Grid::wide(sheet).natural_width() <= super::width() {
+            true => Grid::wide(&with_bars).natural_width() <= super::width(),
+            false => Grid::of(&with_bars).natural_width() <= super::width(),
+        };
+        if has_room {
             *sheet = with_bars;
         }
     }

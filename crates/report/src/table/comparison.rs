@@ -472,8 +472,13 @@ fn lines(
         ),
     ];
     if let Some(of) = trials {
-        lines.push(shape("skewness", of.skewness, of.errors.skewness));
-        lines.push(shape("excess kurtosis", of.excess_kurtosis, of.errors.excess_kurtosis));
+        let shapes = [
+            ("skewness", of.skewness, of.errors.skewness),
+            ("excess kurtosis", of.excess_kurtosis, of.errors.excess_kurtosis),
+        ];
+        let found =
+            shapes.into_iter().filter_map(|(name, value, error)| Some(shape(name, value?, error)));
+        lines.extend(found);
     }
     if let Some(noiseless) = noiseless {
         for (line, texts) in lines.iter_mut().zip(noiseless_texts(noiseless, own)) {
@@ -484,13 +489,12 @@ fn lines(
 }
 
 /// Skewness and kurtosis: two decimals, fewer where the numerical standard error says so.
-fn shape(name: &'static str, value: Option<f64>, error: Option<f64>) -> MethodsLine {
+fn shape(name: &'static str, value: f64, error: Option<f64>) -> MethodsLine {
     let missing = || MISSING.to_owned();
-    let figure = |value: f64| justified(value, Some(SHAPE_PLACE), error.unwrap_or(f64::NAN));
     MethodsLine {
         name,
         gum: missing(),
-        monte_carlo: value.map_or_else(missing, figure),
+        monte_carlo: justified(value, Some(SHAPE_PLACE), error.unwrap_or(f64::NAN)),
         error: error.map_or_else(missing, |error| significant(error, 1)),
         noiseless: [missing(), missing()],
     }

@@ -67,29 +67,35 @@ impl GridColumn {
 impl Grid {
     /// The table of a sheet, with its narrow headers if it is too wide for the page.
     pub(crate) fn of(sheet: &Sheet) -> Self {
-        let of = |narrow: bool| {
-            let (columns, footer, naming) = (Vec::new(), sheet.footer, sheet.naming);
-            let mut grid = Self { columns, footer, naming };
-            for column in &sheet.columns {
-                let cells = column.cells.iter().cloned();
-                let header = column.narrow.as_ref().filter(|_| narrow).unwrap_or(&column.header);
-                match column.kind {
-                    ColumnKind::Numbers => {
-                        grid.numbers(header, cells.map(|cell| printed::text(&cell)));
-                    }
-                    ColumnKind::Text | ColumnKind::Equations => {
-                        grid.text_from(header, LEAST_TEXT, cells)
-                    }
-                    ColumnKind::Units => grid.units(header, cells),
+        let wide = Self::wide(sheet);
+        if wide.natural_width() <= width() { wide } else { Self::headed(sheet, true) }
+    }
+
+    /// The table of a sheet with its wide headers.
+    pub(crate) fn wide(sheet: &Sheet) -> Self {
+        Self::headed(sheet, false)
+    }
+
+    fn headed(sheet: &Sheet, is_narrow: bool) -> Self {
+        let (columns, footer, naming) = (Vec::new(), sheet.footer, sheet.naming);
+        let mut grid = Self { columns, footer, naming };
+        for column in &sheet.columns {
+            let cells = column.cells.iter().cloned();
+            let header = column.narrow.as_ref().filter(|_| is_narrow).unwrap_or(&column.header);
+            match column.kind {
+                ColumnKind::Numbers => {
+                    grid.numbers(header, cells.map(|cell| printed::text(&cell)));
                 }
-                if let Some(last) = grid.columns.last_mut() {
-                    last.aside = column.aside;
+                ColumnKind::Text | ColumnKind::Equations => {
+                    grid.text_from(header, LEAST_TEXT, cells)
                 }
+                ColumnKind::Units => grid.units(header, cells),
             }
-            grid
-        };
-        let wide = of(false);
-        if wide.natural_width() <= width() { wide } else { of(true) }
+            if let Some(last) = grid.columns.last_mut() {
+                last.aside = column.aside;
+            }
+        }
+        grid
     }
 
     /// A column of texts, which wrap if the page is too narrow.

@@ -8,7 +8,7 @@ use roxmltree::Document;
 use serde_json::Value;
 
 use super::*;
-use crate::{BudgetColumn, Shown, html, latex, markdown};
+use crate::{BudgetColumn, Extent, Shown, html, latex, markdown};
 use gumption_engine::propagate::{convergence, histograms};
 use gumption_files::read_text;
 

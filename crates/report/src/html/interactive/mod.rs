@@ -36,12 +36,18 @@ pub fn interactive(page: &str) -> String {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::document::Foot;
     use maud::html;
 
     /// Without the script and its place in the policy the page is the same to the byte.
     #[test]
     fn nothing_else_of_the_page_changes() {
-        let plain = crate::html::page_in("en", "A & B", &Foot::of_title("A & B"), &html! { p { "</body> as a text" } });
+        let plain = crate::html::page_in(
+            "en",
+            "A & B",
+            &Foot::of_title("A & B"),
+            &html! { p { "</body> as a text" } },
+        );
         let with = interactive(&plain);
         let script = format!("<script>{SCRIPT}</script>");
         let allowed = format!("; script-src '{}'", interactive_script_digest());
