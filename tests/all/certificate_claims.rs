@@ -258,7 +258,7 @@ fn rows_raised_to_the_capability_are_said_to_be() {
     assert!(said.contains("with the coverage factor k = 2.00 of the capability"), "{said}");
     assert!(!said.contains("confirms") && !said.contains("law of propagation"), "{said}");
     let page = output(folder.path(), &["run", "m.json", "--format", "markdown", "--quiet"]);
-    let headline = "(10.000 ± 0.060) V; k = 2.00, raised to the laboratory's capability (CMC)";
+    let headline = "(10.000 ± 0.060) V, k = 2.00, raised to the laboratory's capability (CMC)";
     assert!(page.contains(headline), "{page}");
     let csv = output(folder.path(), &["run", "m.json", "--format", "csv", "--quiet"]);
     let lines: Vec<&str> = csv.lines().collect();

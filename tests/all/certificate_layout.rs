@@ -119,7 +119,7 @@ fn statement_is_a_decision_of_file_row_and_command_line() {
     let own = folder(&[("m.json", model)]);
     let page = output(&["run", &path(own.path(), "m.json"), "--quiet"]);
     let page = page.split_whitespace().collect::<Vec<_>>().join(" ");
-    assert!(page.contains("Take the symmetric Monte Carlo interval."), "{page}");
+    assert!(page.contains("The symmetric Monte Carlo interval is stated."), "{page}");
     let wrong = folder(&[
         (
             "c.json",

@@ -190,14 +190,14 @@ fn shown_digits_are_apart_from_those_of_clause_8() {
         &serde_json::from_str::<Value>(&shown).expect("JSON")["outputs"]["y"]["validation"];
     assert_eq!(validation["digits"], 2);
     // k = 2: U is 0.246912
-    assert!(with(&[], model).contains("y = 1.23 ± 0.25;"));
+    assert!(with(&[], model).contains("y = (1.23 ± 0.25), k = 2.00,"));
     let page = with(&["--shown-digits", "5"], model);
-    assert!(page.contains("y = 1.23457 ± 0.24691;"), "{page}");
+    assert!(page.contains("y = (1.23457 ± 0.24691), k = 2.00,"), "{page}");
     let file = model.replacen('{', r#"{"shown_digits": 3, "#, 1);
-    assert!(with(&[], &file).contains("y = 1.235 ± 0.247;"));
-    assert!(with(&["--shown-digits", "5"], &file).contains("y = 1.23457 ± 0.24691;"));
+    assert!(with(&[], &file).contains("y = (1.235 ± 0.247), k = 2.00,"));
+    assert!(with(&["--shown-digits", "5"], &file).contains("y = (1.23457 ± 0.24691), k = 2.00,"));
     // as many as of clause 8, unless given
-    assert!(with(&["--digits", "3"], model).contains("y = 1.235 ± 0.247;"));
+    assert!(with(&["--digits", "3"], model).contains("y = (1.235 ± 0.247), k = 2.00,"));
     let (code, _, message) = ended(&["run", "-", "--shown-digits", "0"], model);
     assert_eq!(code, 2);
     assert!(message.contains("a whole number from 1 to 15 is needed"), "{message}");

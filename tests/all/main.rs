@@ -23,6 +23,7 @@ mod conformity;
 mod contract;
 mod diff;
 mod errors;
+mod first_screen;
 mod formulas;
 mod fuzz;
 mod gap;

@@ -76,12 +76,14 @@ fn squeezed(text: &str) -> String {
 /// What `run` and `certificate` print for U in every format of text.
 fn assert_pages(folder: &Path, u: f64, text: &str) {
     let run = |format| page(folder, "run", "model.json", format);
-    let table = run("table");
+    let arguments = ["run", "model.json", "--full", "--quiet"];
+    let full = gumption().current_dir(folder).args(arguments).assert().success();
+    let table = String::from_utf8_lossy(&full.get_output().stdout).into_owned();
     let line = table.lines().find(|line| line.starts_with("expanded uncertainty"));
     let words: Vec<&str> = line.expect("a line").split_whitespace().collect();
     assert_eq!(words, ["expanded", "uncertainty", text, "m"]);
     for (format, sign) in [("markdown", "±"), ("html", "±"), ("latex", "$\\pm$")] {
-        let result = format!(" {sign} {text}) m; k = 2.00");
+        let result = format!(" {sign} {text}) m, k = 2.00");
         assert!(run(format).contains(&result), "run, {format}: {result}");
     }
     // in full, for programs and spreadsheets

@@ -24,17 +24,18 @@ fn a_page_shows_how_the_figures_settle() {
         output(&[&["run"], arguments, &["--format", "html", "--quiet"]].concat())
     };
     let settles =
-        |page: &str| captions(page).iter().filter(|said| said.contains("figures settle")).count();
+        |page: &str| captions(page).iter().filter(|said| said.contains("Convergence")).count();
     let page = html(&[MODEL, "--trials", "20000"]);
     assert_eq!(settles(&page), 3, "one for each output");
-    assert!(page.contains("first 1 000 to 10 000 trials (dots), each less that of all 20 000"));
+    assert!(page.contains("after 1 000 to 10 000 trials (dots) and the result of all 20 000"));
     // the whole run's own point has the figures of the answer
     let answer: Value = serde_json::from_str(&output(&[
         "run", MODEL, "--trials", "20000", "--format", "json", "--quiet",
     ]))
     .expect("JSON");
     let u = answer["outputs"]["a_x"]["monte_carlo"]["standard_uncertainty"].as_f64().expect("u");
-    let said = page.split("20 000 trials: standard uncertainty of a_x (").nth(1).expect("a point");
+    let said =
+        page.split("20\u{202f}000 trials: standard uncertainty of a_x (").nth(1).expect("a point");
     let (shown, error) = said.split_once(')').and_then(|(of, _)| of.split_once(" ± ")).expect("u");
     let [shown, error] = [shown, error].map(|text| text.parse::<f64>().expect("a number"));
     // rounded to the leading digit of its numerical error
@@ -82,7 +83,7 @@ fn observations_have_a_figure_for_each_record() {
     // 3 rows of 5 channels
     assert_eq!(all.iter().filter(|said| said.contains("what the fit leaves")).count(), 15);
     assert!(all[0].contains("theta at f_set = 5 Hz") && all[0].contains("10 000 samples"));
-    assert!(page.contains("<title>fundamental, 5 Hz: 17.03 deg</title>"), "the fitted amplitude");
+    assert!(page.contains("<title>fundamental, 5 Hz: 17.03°</title>"), "the fitted amplitude");
     assert!(page.len() < 2_000_000, "{}", page.len());
     for format in ["json", "markdown", "csv", "table"] {
         let answer = output(&["observe", RECIPE, "--format", format, "--quiet"]);

@@ -217,7 +217,7 @@ fn a_million_inputs_are_refused() {
 fn twenty_thousand_inputs_are_served() {
     let folder = Folder::new();
     // 0.1 sqrt(20 000) = 14.1
-    let page = folder.answered(&model(&inputs(20_000), &sums(20_000), FEW), &[]);
+    let page = folder.answered(&model(&inputs(20_000), &sums(20_000), FEW), &["--full"]);
     assert!(page.contains("combined standard uncertainty  14"), "{}", cut(&page));
 }
 
@@ -251,7 +251,7 @@ fn a_thousand_correlated_inputs_are_served() {
             format!(r#""correlation_matrix": {{"names": [{names}], "values": [{rows}]}}, {rest}"#);
         model(&inputs(1000), &sums(1000), &correlated)
     };
-    let page = folder.answered(&matrix("0.3"), &[]);
+    let page = folder.answered(&matrix("0.3"), &["--full"]);
     // 0.1 sqrt(1000 + 1000 999 0.3) = 54.8, and a share of 299.7 / 300.7 of the variance
     let found = page.lines().find(|line| line.starts_with("combined standard uncertainty"));
     assert!(found.is_some_and(|line| line.trim_end().ends_with(" 55")), "{}", cut(&page));
@@ -279,7 +279,7 @@ fn many_outputs_are_served_or_refused() {
         let text = model(&inputs(inputs_wanted), &equations.join(", "), FEW);
         text.replace(r#""outputs": {"y": {}}"#, &format!("\"outputs\": {{{}}}", outputs.join(", ")))
     };
-    let page = folder.answered(&with(1000, 3), &[]);
+    let page = folder.answered(&with(1000, 3), &["--full"]);
     assert!(page.contains("499 500 correlation coefficients of the outputs: --format json"));
     folder.refused(&with(3001, 2), &[], "there are 3001 outputs");
     folder.refused(&with(2500, 5000), &[], "there are 12500000 lines of budgets");
@@ -299,7 +299,8 @@ fn rows(second: usize, rest: &str) -> String {
 
 /// As many times a thousand rows by the law of propagation.
 fn thousands_of_rows_are_served(count: usize) {
-    let table = Folder::new().answered(&rows(count, r#""monte_carlo": {"trials": 0}"#), &[]);
+    let table =
+        Folder::new().answered(&rows(count, r#""monte_carlo": {"trials": 0}"#), &["--full"]);
     // one header for each thousand lines, of the answer and of the shares
     assert_eq!(table.lines().filter(|line| line.starts_with("1000")).count(), 2 * count);
     assert_eq!(table.matches("expanded").count(), count);

@@ -413,7 +413,7 @@ fn outputs_without_variance_are_correlated_by_the_law_of_propagation() {
         let codes: Vec<&str> = answer["warnings"].as_array().unwrap().iter().map(code).collect();
         assert!(codes.contains(&"correlations-by-propagation"), "{codes:?}");
     }
-    let page = run(&model, &["--trials", "10000"]);
+    let page = run(&model, &["--trials", "10000", "--full"]);
     assert!(String::from_utf8(page.stdout).unwrap().contains("-0.727"));
 }
 

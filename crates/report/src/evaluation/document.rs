@@ -5,10 +5,11 @@ use crate::document::{Block, Document, sentence};
 use crate::sheet::Sheet;
 use crate::statement;
 use crate::table;
+use crate::table::comparison;
 use crate::table::correlations;
 use crate::{EvaluationReport, plain};
 use gumption_engine::propagate::RowEvaluation;
-use gumption_engine::task::Task;
+use gumption_engine::task::{Task, Warning};
 
 /// Outputs up to which their sections are not folded.
 const MOST_UNFOLDED: usize = 3;
@@ -27,10 +28,10 @@ pub(super) fn of(report: &EvaluationReport<'_>, shown: &Shown<'_>) -> Document {
         }
     }
     sections(&mut document, report, shown);
-    let EvaluationReport { warnings, .. } = *report;
-    if !warnings.is_empty() {
+    let notes = notes(report);
+    if !notes.is_empty() {
         document.section("Notes");
-        document.blocks.push(Block::List(crate::words::lines(warnings)));
+        document.blocks.push(Block::List(crate::words::lines(&notes)));
     }
     repeat::section(&mut document, report, shown);
     document
@@ -75,6 +76,21 @@ pub(super) fn text(report: &EvaluationReport<'_>, shown: &Shown<'_>) -> Document
         }
     }
     document
+}
+
+/// The notes that the sections of the outputs do not have already.
+fn notes(report: &EvaluationReport<'_>) -> Vec<Warning> {
+    let EvaluationReport { task, evaluation, warnings, .. } = *report;
+    let is_single = evaluation.rows.len() == 1;
+    let is_shown = |warning: &&Warning| {
+        is_single
+            && task
+                .model
+                .outputs
+                .iter()
+                .any(|output| comparison::is_of_output(warning, &output.quantity.name))
+    };
+    warnings.iter().filter(|warning| !is_shown(warning)).cloned().collect()
 }
 
 /// A document with its title and what the evaluation is.
@@ -132,6 +148,7 @@ fn usual(document: &mut Document, report: &EvaluationReport<'_>, shown: &Shown<'
         }
     }
     document.blocks.extend(outputs().flat_map(|section| section.distribution.blocks));
+    crate::regions::sections(document, task, row);
     if let Some(said) = table::left_out(row) {
         document.sentence(&said);
     }

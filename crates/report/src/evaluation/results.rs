@@ -163,7 +163,7 @@ pub(super) fn result(settings: &Settings, output: &Quantity, found: &OutputEvalu
             let estimate = in_unit(&estimate, &output.unit);
             format!(
                 "{name} = {estimate}, from {low} to {high}, coverage probability {coverage} \
-                 ({kind} Monte Carlo interval)"
+                 (Monte Carlo, {kind})"
             )
         }
         ResultStatement::Standard { estimate, uncertainty } => {

@@ -21,7 +21,13 @@ pub(crate) fn table(sheet: &Sheet) -> Markup {
         )
         .collect();
     let is_total = |row: usize| sheet.footer && row + 1 == sheet.rows();
-    let class_of_table = if sheet.rows() > UNBROKEN { "table long" } else { "table" };
+    let class_of_table = match (sheet.rows() > UNBROKEN, sheet.has_headers()) {
+        (false, true) => "table",
+        (true, true) => "table long",
+        // particulars, whose words may break rather than leave a narrow screen
+        (false, false) => "table bare",
+        (true, false) => "table bare long",
+    };
     html! {
         // a table wider than the screen can also be scrolled with keys
         div class=(class_of_table) tabindex="0" {

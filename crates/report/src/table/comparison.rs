@@ -15,7 +15,7 @@ use gumption_engine::propagate::validate::Validation;
 use gumption_engine::propagate::{
     Accuracy, Basis, Conformity, DifferenceCause, Noiseless, OutputEvaluation, Stated,
 };
-use gumption_engine::task::{Coverage, Settings, StoppingRule};
+use gumption_engine::task::{Coverage, Settings, StoppingRule, Warning};
 
 /// What is said of a shortest interval that is not exact.
 pub(crate) const NEARLY_SHORTEST: &str =
@@ -75,6 +75,15 @@ const DIFFERENCES: [&str; 8] = [
     "underflow",
     "correlations-by-propagation",
 ];
+
+/// The note that says what [`capability`] says.
+const BELOW_CAPABILITY: &str = "below-cmc";
+
+/// Whether the section of an output says what a note says.
+pub(crate) fn is_of_output(note: &Warning, output: &str) -> bool {
+    let is_said = DIFFERENCES.contains(&note.code()) || note.code() == BELOW_CAPABILITY;
+    note.place == *output && is_said
+}
 
 /// Why the two methods differ, where they do: the notes about it, and a factor that is fixed.
 pub(crate) fn differences(
