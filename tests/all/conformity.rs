@@ -459,6 +459,7 @@ fn limits_and_capability_follow_the_conditions() {
         }
         let certificate = ["certificate", "c.json", "--trials", "0", "--quiet", "--format"];
         let (_, page, _) = said(&[&certificate[..], &["markdown"]].concat());
+        let page = page.replace('\u{2212}', "-");
         for part in ["from -0.05 to 0.05 mbar", "from -0.25 to 0.25 mbar", "from -0.5 to 0.5 mbar"]
         {
             assert!(page.contains(part), "{part}: {page}");

@@ -73,6 +73,16 @@ fn squeezed(text: &str) -> String {
     text.split(' ').filter(|word| !word.is_empty()).collect::<Vec<_>>().join(" ")
 }
 
+/// A number in the notation of print: `1.3 × 10⁻⁷`.
+fn printed(text: &str) -> String {
+    let Some((digits, power)) = text.split_once('e') else { return text.to_owned() };
+    let raised = |letter: char| match letter {
+        '-' => '⁻',
+        digit => ['⁰', '¹', '²', '³', '⁴', '⁵', '⁶', '⁷', '⁸', '⁹'][digit as usize - '0' as usize],
+    };
+    format!("{digits}\u{202f}×\u{202f}10{}", power.chars().map(raised).collect::<String>())
+}
+
 /// What `run` and `certificate` print for U in every format of text.
 fn assert_pages(folder: &Path, u: f64, text: &str) {
     let run = |format| page(folder, "run", "model.json", format);
@@ -83,7 +93,8 @@ fn assert_pages(folder: &Path, u: f64, text: &str) {
     let words: Vec<&str> = line.expect("a line").split_whitespace().collect();
     assert_eq!(words, ["expanded", "uncertainty", text, "m"]);
     for (format, sign) in [("markdown", "±"), ("html", "±"), ("latex", "$\\pm$")] {
-        let result = format!(" {sign} {text}) m, k = 2.00");
+        let shown = if format == "latex" { text.to_owned() } else { printed(text) };
+        let result = format!(" {sign} {shown}) m, k = 2.00");
         assert!(run(format).contains(&result), "run, {format}: {result}");
     }
     // in full, for programs and spreadsheets
@@ -101,8 +112,15 @@ fn assert_pages(folder: &Path, u: f64, text: &str) {
     let y = row["stated"]["value"].as_str().expect("the value");
     let cells = [
         ("table", format!("  {y}  {text}  m ")),
-        ("markdown", format!(" {y} | {text} | m ")),
-        ("html", format!(r#"<td class="number">{y}</td><td class="number">{text}</td>"#)),
+        ("markdown", format!(" {} | {} | m ", printed(y), printed(text))),
+        (
+            "html",
+            format!(
+                r#"<td class="number">{}</td><td class="number">{}</td>"#,
+                printed(y),
+                printed(text)
+            ),
+        ),
         ("latex", format!("{y} & {text} & \\unit{{\\metre}}")),
         ("csv", format!(",{y},{text},m,2.00,")),
         ("dcc", format!("<si:uncertaintyXMLList>{text}</si:uncertaintyXMLList>")),

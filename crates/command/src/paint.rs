@@ -65,14 +65,13 @@ const RED: &str = "\u{1b}[31m";
 const PLAIN: &str = "\u{1b}[0m";
 
 /// Verdicts and their colours. Longer words precede those that they contain.
-const VERDICTS: [(&str, &str); 9] = [
+const VERDICTS: [(&str, &str); 8] = [
     ("GUM interval is not validated", YELLOW),
     ("GUM interval not validated", YELLOW),
     ("GUM interval is validated", GREEN),
     ("Decision: accepted", GREEN),
     ("Decision: rejected", RED),
     ("undecided whether the GUM interval is validated", YELLOW),
-    ("  not valid", YELLOW),
     (" not compatible", RED),
     ("There is a gap", BOLD),
 ];

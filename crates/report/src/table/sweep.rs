@@ -193,7 +193,8 @@ fn answer(sheet: &mut Sheet, lines: &[SweepLine], has_trials: bool) {
     if has_trials {
         sheet.numbers("Monte Carlo\nfrom", column(4));
         sheet.numbers("to", column(5));
-        sheet.text("GUM\ninterval", column(6));
+        sheet.text("GUM interval\nvalidated", column(6));
+        sheet.narrow("GUM\ninterval\nvalidated");
         if lines.iter().any(|line| line.shortest == Some(true)) {
             let kind = |line: &SweepLine| match line.shortest {
                 Some(true) => "shortest".to_owned(),
@@ -324,8 +325,8 @@ fn line(output: Option<&OutputEvaluation>, digits: u32) -> SweepLine {
     };
     let validation = output.and_then(|output| output.validation);
     let verdict = match validation.map(|validation| validation.gum_valid) {
-        Some(Some(true)) => "validated",
-        Some(Some(false)) => "not validated",
+        Some(Some(true)) => "yes",
+        Some(Some(false)) => "no",
         Some(None) => "undecided",
         None => MISSING,
     };
