@@ -114,7 +114,7 @@ fn word(text: &str) -> Option<&'static str> {
 
 /// The first sentence of a text in German, and what follows it.
 fn sentence(text: &str) -> Option<(String, &str)> {
-    let brief = if text.len() <= BRIEF_LENGTH { TEXTS.brief.as_slice() } else { &[] };
+    let brief = if text.chars().count() <= BRIEF_LENGTH { TEXTS.brief.as_slice() } else { &[] };
     let all = TEXTS.sentences.iter().chain(brief);
     let mut all = all.filter(|sentence| sentence.least <= text.len());
     all.find_map(|sentence| {

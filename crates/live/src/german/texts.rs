@@ -12,7 +12,7 @@ use std::sync::LazyLock;
 
 use serde::{Deserialize, Deserializer};
 
-/// The longest text in which the brief ones are looked for, in bytes.
+/// The longest text in which the brief ones are looked for, in characters.
 pub(super) const BRIEF_LENGTH: usize = 60;
 
 /// A text in English and in German.

@@ -2,7 +2,8 @@
 
 use super::{Block, Document, Head};
 use crate::printed::{self, on_terminal};
-use crate::{Grid, plain, table::width, wrapped};
+use crate::table::{USUAL, width};
+use crate::{Grid, plain, wrapped};
 
 /// A line for a signature.
 const RULE: &str = "________________________________";
@@ -14,8 +15,11 @@ pub(crate) fn text(made: impl FnOnce() -> Document) -> String {
 
 fn page(document: &Document) -> String {
     let head = document.head.iter().flat_map(Head::text).map(|line| wrapped(&line)).collect();
-    // the lines of results are whole lines for whoever reads them with a program
-    let first = document.first.iter().map(|line| format!("{}\n", printed::text(&plain(line))));
+    // a program that reads a page in a pipe finds each result on one line
+    let is_screen = width() < USUAL;
+    let whole = |line: &String| format!("{}\n", printed::text(&plain(line)));
+    let first =
+        document.first.iter().map(|line| if is_screen { wrapped(line) } else { whole(line) });
     let remarks = document.remarks.iter().map(|said| wrapped(said)).collect();
     let mut parts = vec![head, first.collect(), remarks];
     if !document.title.is_empty() {

@@ -109,6 +109,25 @@ pub fn with_comma(text: &str) -> String {
     letters.collect()
 }
 
+/// A text of a page in the notation of files, to be compared with numbers.
+#[cfg(test)]
+pub(crate) fn in_file_notation(text: &str) -> String {
+    const RAISED: &str = "⁰¹²³⁴⁵⁶⁷⁸⁹⁻";
+    const ON_THE_LINE: &str = "0123456789-";
+    let text = text.replace('\u{202f}', " ").replace(" × 10", "e").replace('\u{2212}', "-");
+    let mut made = String::new();
+    let mut is_exponent = false;
+    for letter in text.chars() {
+        let place = RAISED.chars().position(|raised| raised == letter);
+        if place.is_some() && !is_exponent && !made.ends_with('e') {
+            made.push('^');
+        }
+        is_exponent = place.is_some();
+        made.push(place.and_then(|place| ON_THE_LINE.chars().nth(place)).unwrap_or(letter));
+    }
+    made
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;

@@ -15,7 +15,7 @@ pub use columns::BudgetColumn;
 pub use grid::Grid;
 pub use text::{grouped, plain, wrapped};
 pub(crate) use text::{one_line, printable};
-use width::USUAL;
+pub(crate) use width::USUAL;
 pub use width::{Screen, within_screen, within_width};
 pub(crate) use width::{shows_print, text_width, width};
 

@@ -3,7 +3,7 @@
 use std::cell::Cell;
 
 /// Characters in a line of a page that goes to no terminal.
-pub(super) const USUAL: usize = 100;
+pub(crate) const USUAL: usize = 100;
 
 /// Lines of running text that are longer than this are hard to read.
 const LONGEST_TEXT: usize = 100;

@@ -305,7 +305,7 @@ fn inputs_of_the_answer_have_their_components() {
 fn a_budget_states_the_estimate_of_a_sum_of_components() {
     let case = composed();
     for page in [
-        report::table(&case.report(), &Default::default()),
+        report::table(&case.report(), &full()),
         report::markdown(&case.report(), &Default::default()),
         report::latex(&case.report(), &Default::default()),
         report::html(&case.report(), &Default::default()),

@@ -9,7 +9,7 @@ mod table;
 mod units;
 mod workbook;
 
-use super::{EvaluationReport, Provenance};
+use super::{EvaluationReport, Extent, Provenance, Shown};
 use gumption_engine::distribution::{Correlation, Input};
 use gumption_engine::model::Quantity;
 use gumption_engine::propagate::{Control, Evaluation, evaluate};
@@ -58,6 +58,11 @@ fn plane_at(tilt: f64, trials: u64) -> Task {
         rotation: Input::constant(0.0, "deg").unwrap(),
     };
     Task::of(plane, settings(trials)).unwrap()
+}
+
+/// Everything on a text page.
+fn full() -> Shown<'static> {
+    Shown { extent: Extent::Full, ..Shown::default() }
 }
 
 /// Only the output along z.

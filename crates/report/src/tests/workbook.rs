@@ -117,13 +117,13 @@ fn budgets_are_live_and_hold_the_numbers_of_the_json() {
         let book = Book::of(&case);
         let names = [
             "Results",
-            "Measurement",
             "Inputs",
             "Budget a_x",
             "Budget a_y",
             "Budget a_z",
-            "Model",
             "Correlations",
+            "Measurement",
+            "Model",
             "About",
         ];
         assert_eq!(book.names(), names);
@@ -204,7 +204,7 @@ fn figures_of_changed_inputs_are_marked() {
         [("Results", (2, 0)), ("Budget a_x", (figures - 1, 4)), ("Correlations", (1, 0))]
     {
         let marked = book.formula(name, place);
-        let said = ": inputs were changed: these figures are not of these inputs\"";
+        let said = ": inputs were changed: not of these inputs\"";
         assert!(marked.contains("$L$4>0") && marked.contains(said), "{name}: {marked}");
     }
 }

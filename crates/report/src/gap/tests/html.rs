@@ -1,5 +1,6 @@
 //! Pages for a browser.
 
+use crate::printed::in_file_notation;
 use roxmltree::{Document, Node};
 
 use super::super::html;
@@ -42,11 +43,11 @@ pub(super) fn parsed(body: &str) -> Document<'_> {
     Document::parse(body).unwrap_or_else(|error| panic!("{error}:\n{body}"))
 }
 
-/// The text in an element, with single spaces.
+/// The text in an element, with single spaces and numbers in the notation of files.
 pub(super) fn text(node: Node<'_, '_>) -> String {
     let parts = node.descendants().filter(Node::is_text).filter_map(|n| n.text());
     let words = parts.flat_map(str::split_whitespace);
-    words.collect::<Vec<_>>().join(" ")
+    in_file_notation(&words.collect::<Vec<_>>().join(" "))
 }
 
 #[test]
