@@ -650,7 +650,7 @@ fn undefined_degrees_of_freedom() {
         "effective degrees of freedom undefined",
         "coverage factor not defined for these degrees of freedom",
         "expanded uncertainty not defined",
-        "JCGM 101, clause 8: there is no GUM interval to compare; take the Monte Carlo one.",
+        "JCGM 101, clause 8: there is no GUM interval to compare; the Monte Carlo interval is stated.",
     ] {
         assert!(page.lines().any(|found| words(found) == said), "{said}\n{page}");
     }
@@ -802,7 +802,7 @@ fn long_names_and_texts_keep_the_page_in_bounds() {
     }
     let page = page(&case);
     assert!(page.chars().all(|c| c == '\n' || !c.is_control()));
-    assert!(page.starts_with("[31mred title and more"));
+    assert!(page.contains("\n[31mred title and more"));
 }
 
 /// Texts far beyond what anybody reads, in one word or in many, are cut after twenty lines; the
