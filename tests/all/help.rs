@@ -138,7 +138,7 @@ fn man_pages_are_written_for_each_command() {
     {
         let (program, page) = page;
         let arguments: &[&str] = match program {
-            "groff" => &["-man", "-ww", "-z", "-Tutf8"],
+            "groff" => &["-k", "-Kutf8", "-man", "-ww", "-z", "-Tutf8"],
             _ => &["-T", "lint", "-W", "warning"],
         };
         let said = Command::new(program).args(arguments).arg(folder.path().join(page)).output();

@@ -97,8 +97,8 @@ fn missing(path: &Path, wanted: Wanted) -> String {
     }
 }
 
-/// The nearest names in a folder. Names with the same extension are compared without it, and
-/// precede all others.
+/// The nearest names in a folder, compared without their extensions: those with the same extension,
+/// or else others.
 fn near_names(folder: &Path, name: &str, wanted: Wanted) -> Vec<String> {
     let entries = fs::read_dir(folder).into_iter().flatten().take(MOST_NAMES).flatten();
     let mut names: Vec<String> = entries
@@ -107,15 +107,22 @@ fn near_names(folder: &Path, name: &str, wanted: Wanted) -> Vec<String> {
         .collect();
     names.sort();
     let (stem, extension) = parts(name);
+    let letters = stem.chars().count();
+    // a longer name is near if it goes on where the wanted one ends
+    let is_like = |other: &str| {
+        let most = (letters + 1) / 3;
+        other.chars().count().abs_diff(letters) <= most || other.starts_with(stem)
+    };
     let (alike, others): (Vec<&str>, Vec<&str>) =
         names.iter().map(String::as_str).partition(|name| parts(name).1 == extension);
-    let near = all_nearest(stem, alike.iter().map(|name| parts(name).0));
-    let near = alike.into_iter().filter(|name| near.contains(&parts(name).0));
-    let near: Vec<String> = near.map(str::to_owned).collect();
-    if !near.is_empty() {
-        return near;
-    }
-    all_nearest(name, others).into_iter().map(str::to_owned).collect()
+    let near_of = |names: Vec<&str>| {
+        let stems = names.iter().map(|name| parts(name).0).filter(|other| is_like(other));
+        let near = all_nearest(stem, stems);
+        let near = names.into_iter().filter(|name| near.contains(&parts(name).0));
+        near.map(str::to_owned).collect::<Vec<_>>()
+    };
+    let near = near_of(alike);
+    if near.is_empty() { near_of(others) } else { near }
 }
 
 /// A name before its last point, and after it.
@@ -142,12 +149,13 @@ mod tests {
             ("models/inclined_plan.json", "; did you mean `inclined_plane.json`?"),
             ("models/powr.json", "; did you mean `power.json`?"),
             ("models/table.cvs", "; did you mean `table.csv`?"),
-            ("models/power", "; did you mean `power.json`, `powerful.json`?"),
-            // one letter in common is no likeness
+            ("models/power", "; did you mean `power.json`?"),
+            ("models/inclined.json", "; did you mean `inclined_plane.json`?"),
+            // neither an extension nor a word in common is enough
             ("models/b.json", ""),
+            ("models/plane.json", ""),
             ("models/voltage.json", ""),
         ] {
-            let hint = hint.replace("`, `", "` or `");
             assert_eq!(reason(name), format!("there is no such file{hint}"), "{name}");
         }
         let folder = place.path().join("modles");

@@ -107,8 +107,10 @@ pub(super) const EXAMPLES: [(&str, [Example; 2]); 22] = [
                 &["gumption dcc reports/certificate.dcc.xml"],
             ),
             example(
-                "Write the list as a table",
-                &["gumption dcc reports/certificate.dcc.xml --format csv --output quantities.csv"],
+                "Write the list for programs",
+                &[
+                    "gumption dcc reports/certificate.dcc.xml --format json --output quantities.json",
+                ],
             ),
         ],
     ),
