@@ -82,7 +82,7 @@ fn files_that_cannot_be_read() {
     fs::write(folder.path().join("table.csv"), "1\n2\n").expect("written");
     let path = folder.path().join("m.json");
     let text = said(&["run", path.to_str().expect("UTF-8")]);
-    let wanted = "m.json:1:75: `tabel.csv`: there is no such file; did you mean `table.csv`?";
+    let wanted = "m.json:1:67: `tabel.csv`: there is no such file; did you mean `table.csv`?";
     assert!(text.contains(wanted), "{text}");
 }
 

@@ -226,12 +226,12 @@ pub(super) const EXAMPLES: [(&str, [Example; 2]); 22] = [
         "gap-check",
         [
             example(
-                "Diagnose simulated data of 20 random truths",
-                &["gumption gap-check models/gap/radius/case.json --draws 20"],
+                "Diagnose simulated data of 10 random truths",
+                &["gumption gap-check models/gap/radius/case.json --draws 10"],
             ),
             example(
                 "Do half of them, for another machine to do the rest",
-                &["gumption gap-check models/gap/radius/case.json --draws 20 --share 1/2 \
+                &["gumption gap-check models/gap/radius/case.json --draws 10 --share 1/2 \
                        --partial draws.bin"],
             ),
         ],
@@ -284,8 +284,8 @@ pub(super) const EXAMPLES: [(&str, [Example; 2]); 22] = [
         "completions",
         [
             example(
-                "Complete commands and options in bash",
-                &["gumption completions bash > gumption.bash", ". ./gumption.bash"],
+                "Write the script for bash, which `source gumption.bash` loads",
+                &["gumption completions bash > gumption.bash"],
             ),
             example("Print the script for fish", &["gumption completions fish"]),
         ],
