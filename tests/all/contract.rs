@@ -116,7 +116,8 @@ fn limits_move_with_a_replaced_estimate() {
     // a value with its uncertainty is a whole input, and no estimate
     let twice = model("").replace("\"mean\": 5", "\"mean\": \"5.0112(23)\"");
     let (_, err, code) = told(folder.path(), &twice, &[]);
-    assert!(code == Some(2) && err.contains("the estimate alone"), "{err}");
+    let whole = "the estimate alone; write `\"x\": \"5.0112(23)\"` instead of the object";
+    assert!(code == Some(2) && err.contains(whole), "{err}");
 }
 
 /// The place of a mistake in a table is that of the table, as the model is called.

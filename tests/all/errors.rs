@@ -94,8 +94,6 @@ fn every_mistake_is_explained() {
     settings.set_snapshot_path(folder().join("snapshots"));
     settings.set_prepend_module_to_snapshot(false);
     settings.set_omit_expression(true);
-    // the system's words
-    settings.add_filter(r": [^:\n]*\(os error 2\)", ": [not found]");
     settings.bind(|| {
         for name in names() {
             let file = format!("{name}.json");

@@ -30,6 +30,7 @@ mod gap;
 mod gap_check;
 mod gap_examples;
 mod headings;
+mod help;
 mod integrity;
 mod interrupt;
 mod intervals;

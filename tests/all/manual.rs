@@ -28,7 +28,7 @@ fn contents() -> Vec<String> {
 }
 
 /// A command as a shell runs it, with the program on the path.
-fn shell(folder: &Path, line: &str) -> std::process::Output {
+pub(crate) fn shell(folder: &Path, line: &str) -> std::process::Output {
     let program = Path::new(env!("CARGO_BIN_EXE_gumption"));
     let mut paths = vec![program.parent().expect("its folder").to_path_buf()];
     paths.extend(std::env::split_paths(&std::env::var_os("PATH").unwrap_or_default()));

@@ -292,7 +292,7 @@ fn what_cannot_be_opened_is_said() {
         String::from_utf8_lossy(&assert.get_output().stderr).into_owned()
     };
     let said = refused(&["no/such/file.json"], 2);
-    assert!(said.contains("cannot open `no/such/file.json`"), "{said}");
+    assert!(said.contains("`no/such/file.json`: there is no folder `no`"), "{said}");
     let folder = folder();
     let server = PageServer::start(folder.path());
     let said = refused(&["models", "--no-browser", "--port", &server.port.to_string()], 1);

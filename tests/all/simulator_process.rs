@@ -133,7 +133,7 @@ fn a_failed_run_says_what_was_found_and_where() {
     }
     let program = Program::new("no-such-program --fast").unwrap();
     let found = results(&program, &[[0.5, 0.1]]).remove(0).unwrap().unwrap_err();
-    let message = "`no-such-program` cannot be started: No such file or directory (os error 2)";
+    let message = "`no-such-program` cannot be started: there is no such program";
     assert_eq!(found, message);
 }
 

@@ -171,7 +171,7 @@ fn results_that_refer_to_each_other_are_refused() {
     folder.refused(&model("m.json"), &[], "is not a saved result");
     folder.write("other.json", &model("m.json"));
     folder.refused(&model("other.json"), &[], "is not a saved result");
-    folder.refused(&model("."), &[], "cannot read the file: `.`");
+    folder.refused(&model("."), &[], "`.`: it is a folder; name a file in it");
     // a result computed from a result, saved over it: it goes back to the first model's inputs
     let first = folder.0.path().join("r.json");
     let first = first.to_str().unwrap();

@@ -33,6 +33,71 @@ fn misspelt_commands_and_models() {
     }
 }
 
+/// A file that cannot be read is named without a position and without the words of the system, by
+/// every command.
+#[test]
+fn files_that_cannot_be_read() {
+    let model = "models/examples/power.json";
+    let plane = "models/inclined_plan.json";
+    let near =
+        "models/inclined_plan.json: there is no such file; did you mean `inclined_plane.json`?\n";
+    for arguments in [
+        &["run", plane][..],
+        &["check", plane],
+        &["assumptions", plane],
+        &["certificate", plane],
+        &["compare", plane],
+        &["dcc", plane],
+        &["diff", plane, model],
+        &["diff", model, plane],
+        &["gap", plane],
+        &["gap-check", plane],
+        &["import", plane],
+        &["observe", plane],
+        &["plan", plane, "--target", "U(a_x) <= 1 m/s^2"],
+        &["readings", "--template", plane],
+        &["run", model, "--readings", plane],
+        &["plan", model, "--target", "U(power) <= 1 mW", "--cost", plane],
+    ] {
+        assert_eq!(said(arguments), near, "{arguments:?}");
+    }
+    for (arguments, wanted) in [
+        (&["run", "models"][..], "models: it is a folder; name a file in it\n"),
+        (&["run", "modles/power.json"], "there is no folder `modles`; did you mean `models`?"),
+        (&["run", "tests/errors/latin1.csv"], "latin1.csv: it is not UTF-8 text: save it as UTF-8"),
+        (&["merge", "modles"], "`modles`: there is no such folder; did you mean `models`?"),
+        (
+            &["run", model, "--output", "modles/power.txt"],
+            "cannot write `modles/power.txt`: there is no folder `modles`; did you mean `models`?",
+        ),
+    ] {
+        let text = said(arguments);
+        assert!(text.contains(wanted) && !text.contains("os error"), "{arguments:?}: {text}");
+    }
+    // a file that another file names has the position of its name
+    let folder = tempfile::tempdir().expect("a folder");
+    let named = r#"{"inputs": {"x": {"unit": "m", "distribution": "samples", "file": "tabel.csv"}},
+        "equations": {"y": "x"}, "outputs": {"y": {"unit": "m"}}}"#;
+    fs::write(folder.path().join("m.json"), named).expect("written");
+    fs::write(folder.path().join("table.csv"), "1\n2\n").expect("written");
+    let path = folder.path().join("m.json");
+    let text = said(&["run", path.to_str().expect("UTF-8")]);
+    let wanted = "m.json:1:67: `tabel.csv`: there is no such file; did you mean `table.csv`?";
+    assert!(text.contains(wanted), "{text}");
+}
+
+/// A probability in percent is recognized on the command line too.
+#[test]
+fn probabilities_in_percent() {
+    for given in ["95", "95 %", "95%"] {
+        let text = said(&["run", "models/examples/power.json", "--coverage", given]);
+        let wanted = "a probability between 0 and 1 is needed; did you mean 0.95?";
+        assert!(text.contains(wanted), "{given}: {text}");
+    }
+    let text = said(&["run", "models/examples/power.json", "--coverage", "0"]);
+    assert!(text.contains("is needed, such as 0.95") && !text.contains("did you"), "{text}");
+}
+
 #[test]
 fn files_of_other_commands() {
     let folder = tempfile::tempdir().expect("a folder");

@@ -8,6 +8,7 @@
 
 pub mod gravity;
 pub mod heading;
+pub mod read_failure;
 pub mod recording;
 pub mod separator;
 

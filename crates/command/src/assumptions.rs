@@ -13,7 +13,8 @@ use gumption_engine::task::{Task, Trials, Warning};
 use gumption_files::ModelFile;
 use gumption_report as report;
 
-/// Test the Type B assumptions of a model file.
+/// Test the Type B assumptions of a model file: which ones matter, which ones the readings
+/// contradict.
 #[derive(Debug, Args)]
 pub(super) struct Assumptions {
     #[command(flatten)]

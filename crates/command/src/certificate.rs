@@ -26,7 +26,7 @@ use gumption_files::{CertificateFile, FileReader};
 use gumption_report::certificate::{self as report, CertificateReport, DccVersion, ModelSource};
 use gumption_text::{Diagnostic, DiagnosticKind, Diagnostics};
 
-/// Make a calibration certificate.
+/// Make a calibration certificate from a certificate file and its models.
 #[derive(Clone, Debug, Args)]
 pub(super) struct Certificate {
     /// The certificate file; - for standard input

@@ -13,7 +13,7 @@ use super::{CommandLine, Exit, Failure, diagnostics};
 use gumption_report::{plain, pretty};
 use gumption_text::{Diagnostic, Diagnostics};
 
-/// Check a file.
+/// Check a file and list all of its errors.
 #[derive(Debug, Args)]
 pub(super) struct Check {
     /// The file; - for standard input

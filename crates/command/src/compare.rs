@@ -14,7 +14,7 @@ use gumption_foreign::{ComparisonOptions, ComparisonTable, ReadComparison};
 use gumption_report::compare::{self as report, Compare as ComparedPair};
 use gumption_units::{Unit, nearest};
 
-/// Compare results in pairs, or results of many laboratories.
+/// Compare results in pairs (normalized errors), or results of many laboratories.
 #[derive(Debug, Args)]
 pub(super) struct Compare {
     /// The table, CSV or XLSX: columns label, x1, U1, x2, U2 and optionally k1, k2, r; for

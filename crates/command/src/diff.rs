@@ -13,7 +13,7 @@ use gumption_files::ModelOrResult;
 use gumption_report as report;
 use gumption_text::Diagnostics;
 
-/// Compare two model files, two saved results, or a model file with a saved result.
+/// Show what changed between two model files or saved results, and how it changed U.
 #[derive(Debug, Args)]
 pub(super) struct Diff {
     /// The first file, a model or a file of `run --save`; - for standard input

@@ -16,8 +16,9 @@ use gumption_gap::Diagnosis;
 use gumption_gap::simulated::SimulatorDiagnosis;
 use gumption_report as report;
 use gumption_report::Provenance;
+use gumption_text::bytes;
 
-/// Diagnose where measured data depart from a sim, and which effect is missing.
+/// Diagnose where measured data depart from a model, and which effect is missing.
 #[derive(Debug, Args)]
 pub(super) struct Gap {
     #[command(flatten)]
@@ -116,8 +117,8 @@ impl Gap {
         let mut files = file.files.clone();
         if let Some(path) = &self.predict {
             let name = path.display().to_string();
-            let read = std::fs::read(path);
-            let bytes = read.map_err(|e| Failure::System(format!("cannot read `{name}`: {e}")))?;
+            let bytes = bytes::of_file(path, bytes::MOST)
+                .map_err(|reason| Failure::System(format!("`{name}`: {reason}")))?;
             files.push((name, bytes));
         }
         Ok(run::provenance(&file.source.text, &files))

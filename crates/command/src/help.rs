@@ -1,9 +1,10 @@
 //! `gumption help`
 
-use clap::{Args, CommandFactory, ValueEnum};
+use clap::{Args, ValueEnum};
 
+use super::definition::definition;
 use super::output::AnswerPlace;
-use super::{Arguments, Exit, Failure};
+use super::{Exit, Failure};
 use gumption_report::reference::{self, Topic};
 use gumption_units::nearest;
 
@@ -46,7 +47,7 @@ impl Help {
 
 /// The commands, and the other topics below them.
 fn overview() -> String {
-    let mut text = Arguments::command().render_long_help().to_string();
+    let mut text = definition().render_long_help().to_string();
     text += "\nHelp on files and formulas, by `gumption help TOPIC`:\n";
     for topic in Topic::ALL {
         text += &format!("  {:<16}  {}\n", topic.name(), topic.about());
@@ -55,7 +56,7 @@ fn overview() -> String {
 }
 
 fn of_command(name: &str) -> Result<String, Failure> {
-    let mut program = Arguments::command();
+    let mut program = definition();
     program.build();
     if let Some(command) = program.find_subcommand_mut(name) {
         return Ok(command.render_long_help().to_string());

@@ -18,8 +18,7 @@ use gumption_foreign::{
 use gumption_report::words::{Language, sentence};
 use gumption_report::{budget_template, pretty};
 
-/// Convert an uncertainty budget in a spreadsheet (CSV, or a sheet of an XLSX file) into a model
-/// file.
+/// Convert an uncertainty budget in a spreadsheet into a model file.
 ///
 /// The budget is a table with a row of headings and a row for each quantity. Headings are
 /// recognized in English, German, French and Spanish; `--column` sets the meaning of other columns.

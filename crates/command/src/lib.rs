@@ -6,7 +6,9 @@ mod assumptions;
 mod certificate;
 mod check;
 mod compare;
+mod completions;
 mod dcc;
+mod definition;
 mod diagnostics;
 mod diff;
 mod evaluated;
@@ -18,6 +20,7 @@ mod gap_check;
 mod help;
 mod import;
 mod internal_error;
+mod man_pages;
 mod merge;
 mod models;
 mod new;
@@ -50,7 +53,7 @@ use std::sync::Arc;
 use std::sync::atomic::AtomicBool;
 
 use clap::error::{ContextKind, ContextValue, ErrorKind};
-use clap::{CommandFactory, Parser, Subcommand};
+use clap::{ArgAction, Parser, Subcommand};
 use gumption_engine::model::typed::{Catalogue, CatalogueEntry};
 use gumption_files::FileReader;
 use gumption_live::Live;
@@ -66,7 +69,13 @@ pub use verify::PublishedExamples;
 
 /// Measurement uncertainty by the GUM and by Monte Carlo, side by side.
 #[derive(Debug, Parser)]
-#[command(name = "gumption", version, max_term_width = 100, disable_help_subcommand = true)]
+#[command(
+    name = "gumption",
+    version,
+    max_term_width = 100,
+    disable_help_subcommand = true,
+    disable_help_flag = true
+)]
 struct Arguments {
     #[command(subcommand)]
     command: Command,
@@ -76,55 +85,41 @@ struct Arguments {
         global = true,
         value_name = "WHEN",
         hide_possible_values = true,
-        default_value = "auto"
+        default_value = "auto",
+        help_heading = definition::REST,
+        display_order = 1000
     )]
     color: paint::When,
+    /// Print help
+    #[arg(long, short, global = true, action = ArgAction::Help, help_heading = definition::REST, display_order = 1001)]
+    help: Option<bool>,
 }
 
 #[derive(Debug, Subcommand)]
 enum Command {
-    /// Evaluate a model file by GUM and by Monte Carlo and print its budget and intervals
     Run(run::Run),
-    /// Merge the parts of a run (`gumption run --blocks`) and print its answer
     Merge(merge::Merge),
-    /// Test the Type B assumptions of a model file: which ones matter, which ones the readings
-    /// contradict
     Assumptions(assumptions::Assumptions),
-    /// Make a calibration certificate from a certificate file and its models
     Certificate(certificate::Certificate),
-    /// Check a file and list all of its errors
     Check(check::Check),
-    /// Compare results in pairs (normalized errors), or results of many laboratories
     Compare(compare::Compare),
-    /// List the contents of a digital calibration certificate, and how a model file uses them
     Dcc(dcc::Dcc),
-    /// Convert an uncertainty budget in a spreadsheet into a model file
     Import(import::Import),
-    /// Write the heading of a file of readings for a model file
     Readings(readings::Readings),
-    /// Write a new model file, from options or from answers to questions
     New(new::New),
-    /// List the typed measurement models, or describe one
     Models(models::Models),
-    /// Recompute the published examples on this machine, or compare its code paths
     Verify(verify::Verify),
-    /// Show what changed between two model files or saved results, and how it changed U
     Diff(diff::Diff),
-    /// Find the cheapest improvement of the inputs that meets a target uncertainty
     Plan(plan::Planning),
-    /// Diagnose where measured data depart from a model, and which effect is missing
     Gap(gap::Gap),
-    /// Test the diagnosis on simulated data of a case (blind)
     GapCheck(gap_check::GapCheck),
-    /// Determine amplitudes, phases and delays with their uncertainties from raw recordings
     Observe(observe::Observe),
-    /// Edit a file or folder on a page in the browser, with results while you type
     #[cfg(feature = "open")]
     Open(open::Open),
-    /// Print the JSON Schema of the files, for editors
     Schema(schema::Schema),
-    /// Help on commands, file keys, distributions, functions and units
     Help(help::Help),
+    Completions(completions::Completions),
+    Man(man_pages::ManPages),
 }
 
 impl Command {
@@ -190,7 +185,7 @@ impl CommandLine {
     pub fn main_of(&self, arguments: impl IntoIterator<Item = OsString>) -> ExitCode {
         signals::watch();
         internal_error::watch();
-        let arguments = match Arguments::try_parse_from(arguments) {
+        let arguments = match definition::parsed(arguments) {
             Ok(arguments) => arguments,
             Err(told) => match misspelt(&told) {
                 Some(message) => return Failure::Argument(message).report(),
@@ -222,7 +217,7 @@ impl CommandLine {
         stop: Arc<AtomicBool>,
     ) -> Result<Answered, Failure> {
         let name = std::iter::once(OsString::from("gumption"));
-        let arguments = match Arguments::try_parse_from(name.chain(arguments)) {
+        let arguments = match definition::parsed(name.chain(arguments)) {
             Ok(arguments) => arguments,
             // help and version are answers
             Err(told) if !told.use_stderr() => {
@@ -263,6 +258,8 @@ impl CommandLine {
             Command::Open(command) => command.execute(self),
             Command::Schema(command) => command.execute(),
             Command::Help(command) => command.execute(),
+            Command::Completions(command) => command.execute(),
+            Command::Man(command) => command.execute(),
             Command::New(command) => command.execute(self),
         }
     }
@@ -277,8 +274,8 @@ fn misspelt(error: &clap::Error) -> Option<String> {
     let Some(ContextValue::String(name)) = error.get(ContextKind::InvalidSubcommand) else {
         return None;
     };
-    let arguments = Arguments::command();
-    let names: Vec<&str> = arguments.get_subcommands().map(clap::Command::get_name).collect();
+    let program = definition::definition();
+    let names: Vec<&str> = program.get_subcommands().map(clap::Command::get_name).collect();
     let near = all_nearest(name, names.iter().copied());
     let hint = if Path::new(name).is_file() {
         format!(

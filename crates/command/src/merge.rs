@@ -12,7 +12,7 @@ use super::parts::{NEXT_PASS, PartsFolder};
 use super::{CommandLine, Exit, Failure, signals};
 use gumption_files::{SharedModelError, SharedRun};
 
-/// Merge the parts of a run.
+/// Merge the parts of a run (`gumption run --blocks`) and print its answer.
 ///
 /// Combines the parts that `gumption run --blocks` wrote to a folder. The answer is the same as
 /// that of a run on one machine. If another pass over the blocks is needed, the command ends with

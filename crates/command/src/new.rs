@@ -17,7 +17,9 @@ use gumption_text::DiagnosticKind;
 use gumption_units::nearest;
 use input::{blank, described, is_distribution, unit_of, value};
 
-/// Write a new model file. Without --equation the command asks questions.
+/// Write a new model file, from options or from answers to questions.
+///
+/// Without --equation the command asks questions.
 #[derive(Debug, Args)]
 pub(super) struct New {
     /// Title of the measurement
@@ -149,7 +151,7 @@ impl New {
         let mut ask = Questions { answers: io::stdin().lock() };
         let title = match &self.title {
             Some(title) => title.clone(),
-            None => ask.line("Title (may be empty):")?,
+            None => ask.line("Title:")?,
         };
         let mut draft = Draft { title: Some(title), ..Draft::default() };
         say("Equations, NAME = FORMULA, one per line; finish with an empty line.\n");

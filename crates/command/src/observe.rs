@@ -12,7 +12,7 @@ use gumption_files::{FileReader, RecipeFile};
 use gumption_report::observe::{self as report, ObservationReport};
 use gumption_signal::{Observation, RecordTrace, observe, observe_with_traces};
 
-/// Determine amplitudes, phases and delays from recordings.
+/// Determine amplitudes, phases and delays with their uncertainties from raw recordings.
 #[derive(Debug, Args)]
 pub(super) struct Observe {
     /// The recipe: recordings, channels and the quantities to determine; - for standard input

@@ -14,6 +14,7 @@ use super::exit::say_line;
 use super::output::AnswerPlace;
 use super::surroundings::{GivenFile, in_call};
 use super::{CommandLine, Failure, output};
+use gumption_engine::number::of_percent;
 use gumption_engine::parallel::{self, Pool};
 use gumption_engine::propagate::Control;
 use gumption_engine::task::{
@@ -528,7 +529,14 @@ fn statement() -> impl TypedValueParser<Value = StatementMethod> {
 pub(super) fn probability(text: &str) -> Result<f64, String> {
     match text.parse::<f64>() {
         Ok(p) if p > 0.0 && p < 1.0 => Ok(p),
-        _ => Err("a probability between 0 and 1 is needed, such as 0.95".to_owned()),
+        found => {
+            let percent = text.trim_end().strip_suffix('%').map(|text| text.trim_end().parse());
+            let meant = percent.unwrap_or(found).ok().and_then(of_percent);
+            Err(match meant {
+                Some(p) => format!("a probability between 0 and 1 is needed; did you mean {p}?"),
+                None => "a probability between 0 and 1 is needed, such as 0.95".to_owned(),
+            })
+        }
     }
 }
 
@@ -552,7 +560,7 @@ fn standard_input() -> Result<String, Failure> {
         return Ok(of.text.clone());
     }
     let bytes = bytes::of(io::stdin(), bytes::MOST)
-        .map_err(|message| Failure::Argument(format!("cannot read standard input: {message}")))?;
+        .map_err(|message| Failure::Argument(format!("standard input: {message}")))?;
     let text = bytes::text(&bytes).map(Cow::into_owned);
     text.map_err(|reason| Failure::Argument(format!("standard input: {reason}")))
 }

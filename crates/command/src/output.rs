@@ -12,6 +12,7 @@ use std::path::{Path, PathBuf};
 use super::replacement::{Replacement, target};
 use super::surroundings::in_call;
 use super::{Failure, paint, signals};
+use gumption_columns::read_failure;
 
 /// The destination of an answer.
 #[derive(Debug)]
@@ -214,7 +215,7 @@ impl Destination {
                 done.and_then(|done| if done { new.persist() } else { Ok(()) })
             }
         };
-        written.map_err(|error| failed(&path, error))
+        written.map_err(|error| failed(&path, read_failure::in_words(&error)))
     }
 }
 
@@ -290,8 +291,8 @@ fn not_written(path: &Path, error: impl fmt::Display) -> String {
 fn not_opened(path: &Path, error: &io::Error) -> Failure {
     match error.kind() {
         ErrorKind::NotFound | ErrorKind::NotADirectory | ErrorKind::IsADirectory => {
-            Failure::Argument(not_written(path, error))
+            Failure::Argument(not_written(path, read_failure::of_file(path, error)))
         }
-        _ => failed(path, error),
+        _ => failed(path, read_failure::of_file(path, error)),
     }
 }

@@ -9,6 +9,7 @@ use super::exit::say;
 use super::output::{self, Destination};
 use super::parted_run::{MergedRun, PartedRun, PassOfRun, refused};
 use super::{Exit, Failure, progress};
+use gumption_columns::read_failure;
 use gumption_engine::number::smallest_first;
 use gumption_engine::propagate::{Control, Evaluation};
 use gumption_files::{
@@ -147,7 +148,8 @@ impl PartsFolder {
             )));
         }
         let failed = |error: std::io::Error| {
-            Failure::Argument(format!("cannot read the folder `{}`: {error}", path.display()))
+            let reason = read_failure::of_folder(path, &error);
+            Failure::Argument(format!("`{}`: {reason}", path.display()))
         };
         let mut names: Vec<PathBuf> = Vec::new();
         for entry in fs::read_dir(path).map_err(failed)? {
@@ -158,7 +160,8 @@ impl PartsFolder {
         let mut found =
             Self { path: path.to_owned(), has_pass: false, parts: Vec::new(), others: 0 };
         for name in names.into_iter().filter(|name| name.is_file()) {
-            let file = File::open(&name).map_err(|error| refused(&name.display(), &error))?;
+            let unread = |error| refused(&name.display(), &read_failure::of_file(&name, &error));
+            let file = File::open(&name).map_err(unread)?;
             match SharedFileHeader::read(&mut BufReader::new(file)) {
                 Ok(header) if header.kind == SharedFileKind::Pass => {
                     found.has_pass |= name.ends_with(NEXT_PASS);
@@ -178,7 +181,8 @@ impl PartsFolder {
     pub fn made(path: &Path) -> Result<Self, Failure> {
         fs::create_dir_all(path).map_err(|error| {
             let path = plain(&path.display().to_string());
-            Failure::System(format!("cannot create the folder `{path}`: {error}"))
+            let reason = read_failure::in_words(&error);
+            Failure::System(format!("cannot create the folder `{path}`: {reason}"))
         })?;
         Self::open(path)
     }
@@ -338,7 +342,8 @@ impl PartsFolder {
             let name = path.file_name().unwrap_or_default().to_string_lossy();
             if header.pass == number && name.starts_with(&prefix) {
                 fs::remove_file(path).map_err(|error| {
-                    Failure::System(format!("cannot remove `{}`: {error}", path.display()))
+                    let reason = read_failure::in_words(&error);
+                    Failure::System(format!("cannot remove `{}`: {reason}", path.display()))
                 })?;
             }
         }

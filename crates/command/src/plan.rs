@@ -19,7 +19,7 @@ use gumption_files::{CostFile, ModelFile};
 use gumption_report::plan as report;
 use gumption_text::bytes::sha256;
 
-/// Plan towards a wanted uncertainty.
+/// Find the cheapest improvement of the inputs that meets a target uncertainty.
 #[derive(Debug, Args)]
 pub(super) struct Planning {
     #[command(flatten)]

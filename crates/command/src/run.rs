@@ -16,7 +16,7 @@ use gumption_engine::task::{MethodChoice, SettingsChanges, StoppingRule, Task, T
 use gumption_files::{ModelFile, SharedRun};
 use gumption_report::Provenance;
 
-/// Evaluate a model file.
+/// Evaluate a model file by GUM and by Monte Carlo and print its budget and intervals.
 #[derive(Debug, Args)]
 pub(super) struct Run {
     #[command(flatten)]

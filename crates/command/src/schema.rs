@@ -8,7 +8,7 @@ use super::output::AnswerPlace;
 use super::{Exit, Failure, output};
 use gumption_files::schema;
 
-/// Print the JSON Schema of the files.
+/// Print the JSON Schema of the files, for editors.
 #[derive(Debug, Args)]
 pub(super) struct Schema {
     /// Write the schema to this file instead of standard output

@@ -1,6 +1,5 @@
 //! Draws of a blind test in files: made for a range of them, found in a folder, merged.
 
-use std::fs::File;
 use std::ops::Range;
 use std::path::{Path, PathBuf};
 
@@ -9,6 +8,7 @@ use serde::{Deserialize, Serialize};
 use super::Failure;
 use super::parted_run::refused;
 use super::parts::{missing, ranges};
+use gumption_columns::read_failure;
 use gumption_engine::number::smallest_first;
 use gumption_files::CaseFile;
 use gumption_gap::check::{BlindDraw, CheckedNoise};
@@ -100,8 +100,7 @@ impl SharedCheck {
     /// The draws of a file, with their range; `None` for another kind of file.
     fn read(&self, path: &Path) -> Result<Option<DrawsOfRange>, Failure> {
         let refuse = |reason: &dyn std::fmt::Display| refused(&path.display(), reason);
-        let file = File::open(path).map_err(|error| refuse(&error))?;
-        let content = bytes::of(file, bytes::MOST).map_err(|error| refuse(&error))?;
+        let content = bytes::of_file(path, bytes::MOST).map_err(|reason| refuse(&reason))?;
         if !content.starts_with(b"{\"blind_check\":") {
             return Ok(None);
         }
@@ -128,7 +127,8 @@ impl SharedCheck {
     /// All draws, from the files in a folder.
     pub(super) fn together(&self, folder: &Path) -> Result<Vec<BlindDraw>, Failure> {
         let failed = |error: std::io::Error| {
-            Failure::Argument(format!("cannot read the folder `{}`: {error}", folder.display()))
+            let reason = read_failure::of_folder(folder, &error);
+            Failure::Argument(format!("`{}`: {reason}", folder.display()))
         };
         let mut names: Vec<PathBuf> = Vec::new();
         for entry in std::fs::read_dir(folder).map_err(failed)? {

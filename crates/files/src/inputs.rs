@@ -28,6 +28,7 @@ use gumption_text::object::Object;
 use gumption_text::value_text::{ValueOf, is_value};
 use gumption_text::{Collector, DiagnosticKind, Folder, notation};
 use gumption_units::Unit;
+use serde_json::Value;
 
 /// At most so many variables.
 const MOST_VARIABLES: usize = 100_000;
@@ -292,13 +293,8 @@ impl<'a> InputReader<'a, '_> {
             return value.map(EstimateSource::Fixed);
         }
         if notation::states_uncertainty(text) {
-            let diagnostic = DiagnosticKind::WrongType {
-                what: format!("`{key}`"),
-                found: "a value with its uncertainty",
-                expected: "the estimate alone; as the whole input, in place of the braces, such a \
-                           text is a value and its uncertainty",
-            };
-            log.report(&member.value.span, diagnostic);
+            let (key, whole) = (key.to_owned(), self.as_whole(text));
+            log.report(&member.value.span, DiagnosticKind::NotAlone { key, whole });
             return None;
         }
         let formula = log.value(
@@ -312,6 +308,19 @@ impl<'a> InputReader<'a, '_> {
             return None;
         }
         Some(EstimateSource::Formula(formula))
+    }
+
+    /// The input as a text instead of an object, if it can be one: a value with its uncertainty.
+    fn as_whole(&self, text: &str) -> Option<String> {
+        // parts of complex quantities are objects
+        let is_part = self.whole.is_some();
+        let unit = self.object.get("unit").and_then(|member| match &member.value.value {
+            Json::Text(unit) => Some(unit.as_str()),
+            _ => None,
+        });
+        let whole = notation::stated_in(text, unit.unwrap_or("")).filter(|_| !is_part)?;
+        let [name, whole] = [self.name, &whole].map(|text| Value::from(text).to_string());
+        Some(format!("{name}: {whole}"))
     }
 
     /// The estimate in a row, in the quantity's unit.

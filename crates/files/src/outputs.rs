@@ -212,8 +212,8 @@ impl Decision {
         if let (Some(risk), Some(member)) = (risk, object.get("risk"))
             && !(risk > 0.0 && risk < 0.5)
         {
-            let range = "above 0 and below 0.5";
-            let diagnostic = DiagnosticKind::OutOfRange { key: "risk".into(), found: risk, range };
+            let (key, found, below) = ("risk".into(), risk, 0.5);
+            let diagnostic = DiagnosticKind::NotProbability { key, found, below };
             object.log.report(&member.value.span, diagnostic);
         }
         let guard_factor = guard_factor(&object);

@@ -22,7 +22,7 @@ pub(super) fn read(root: &Object<'_>) -> Option<Prior> {
             let place = object.get(key).map_or(object.place(), |member| &member.value.span);
             root.log.report(
                 place,
-                DiagnosticKind::NotProbability { key: key.to_owned(), found: value },
+                DiagnosticKind::NotProbability { key: key.to_owned(), found: value, below: 1.0 },
             );
             clean = false;
         }

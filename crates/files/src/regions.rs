@@ -23,7 +23,10 @@ pub(super) fn read(root: &Object<'_>, outputs: &[Output]) -> Vec<Region> {
             && !(found > 0.0 && found < 1.0)
         {
             let key = "probability".into();
-            log.report(&member.value.span, DiagnosticKind::NotProbability { key, found });
+            log.report(
+                &member.value.span,
+                DiagnosticKind::NotProbability { key, found, below: 1.0 },
+            );
         }
         if object.required("outputs").is_none() {
             continue;

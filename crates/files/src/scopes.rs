@@ -195,6 +195,9 @@ impl ConditionValues for ConditionSet<'_> {
             FormulaError::UnknownName { name, .. } if self.constants.computed.contains(&name) => {
                 DiagnosticKind::EstimateOfFormula { name }
             }
+            FormulaError::UnknownName { name, known, .. } if known.is_empty() => {
+                DiagnosticKind::NothingToUse { name }
+            }
             error => DiagnosticKind::Formula { error },
         };
         let kinds = |errors: Vec<FormulaError>| errors.into_iter().map(kind).collect::<Vec<_>>();

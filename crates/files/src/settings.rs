@@ -32,8 +32,11 @@ pub(super) fn read(root: &Object<'_>) -> Settings {
         if (0.0..=1.0).contains(&share) {
             settings.allowed_undefined = share;
         } else {
-            let diagnostic =
-                DiagnosticKind::NotProbability { key: "allow_undefined".into(), found: share };
+            let diagnostic = DiagnosticKind::NotProbability {
+                key: "allow_undefined".into(),
+                found: share,
+                below: 1.0,
+            };
             root.log.report(&member.value.span, diagnostic);
         }
     }
@@ -168,7 +171,7 @@ pub(super) fn coverage(root: &Object<'_>) -> Option<Coverage> {
             let diagnostic = match coverage_slips::of_probability(found) {
                 Some(range) => DiagnosticKind::OutOfRange { key, found, range },
                 None if found > 0.0 && found < 1.0 => return Some(Coverage::Probability(found)),
-                None => DiagnosticKind::NotProbability { key, found },
+                None => DiagnosticKind::NotProbability { key, found, below: 1.0 },
             };
             root.log.report(&member.value.span, diagnostic);
             None

@@ -671,7 +671,7 @@ impl<'a> Fields<'a> {
                         let dof = dof.unwrap_or(f64::INFINITY);
                         return Some(special::student::two_sided_factor(found, dof));
                     }
-                    None => DiagnosticKind::NotProbability { key, found },
+                    None => DiagnosticKind::NotProbability { key, found, below: 1.0 },
                 };
                 self.object.log.report(&member.value.span, diagnostic);
                 None

@@ -6,6 +6,7 @@ use std::fs::File;
 use std::io::{self, Read};
 use std::path::Path;
 
+use gumption_columns::read_failure;
 use sha2::{Digest, Sha256};
 
 /// Maximum size of a model file, a result file or a table, in bytes. Reading takes up to twelve
@@ -25,9 +26,9 @@ pub fn sha256(bytes: &[u8]) -> String {
 pub fn of_file(path: &Path, most: u64) -> Result<Vec<u8>, String> {
     // the system's message for a directory differs: access is denied on Windows
     if path.is_dir() {
-        return Err("it is a folder: name a file".to_owned());
+        return Err(read_failure::FOLDER.to_owned());
     }
-    let file = File::open(path).map_err(|error| error.to_string())?;
+    let file = File::open(path).map_err(|error| read_failure::of_file(path, &error))?;
     of(file, most).map_err(|error| error.to_string())
 }
 
@@ -47,7 +48,7 @@ pub enum ReadError {
 impl fmt::Display for ReadError {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
-            Self::Io(error) => error.fmt(f),
+            Self::Io(error) => f.write_str(&read_failure::in_words(error)),
             Self::TooLarge { most } => {
                 let most = most / 1_000_000;
                 write!(f, "it is larger than {most} MB, the most that this version reads")
@@ -150,6 +151,6 @@ mod tests {
 
     #[test]
     fn a_folder_is_called_one() {
-        assert_eq!(of_file(Path::new("."), 1).unwrap_err(), "it is a folder: name a file");
+        assert_eq!(of_file(Path::new("."), 1).unwrap_err(), read_failure::FOLDER);
     }
 }

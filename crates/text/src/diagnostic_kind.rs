@@ -8,7 +8,7 @@ use super::value_text::with_point;
 use gumption_columns::{gravity, heading::OtherUnit};
 use gumption_engine::distribution::Invalid;
 use gumption_engine::model::formula::{FormulaError, ScaleMisfit};
-use gumption_engine::number::Shortest;
+use gumption_engine::number::{Shortest, of_percent};
 use gumption_units::UnitError;
 use gumption_units::nearest;
 
@@ -21,7 +21,7 @@ pub const WIDTHS: [&str; 6] = ["std", "expanded", "scale", "half_width", "semi_r
 pub enum DiagnosticKind {
     /// The file cannot be read.
     Unreadable {
-        /// The message of the system or the parser.
+        /// The reason, as a sentence about the file.
         message: String,
     },
     /// A file that may not be read because it lies outside the folder of the file that names it.
@@ -48,6 +48,13 @@ pub enum DiagnosticKind {
         found: &'static str,
         /// The expected value.
         expected: &'static str,
+    },
+    /// A value with its uncertainty as a key of an input that has other keys.
+    NotAlone {
+        /// The key.
+        key: String,
+        /// The whole input as a text, if there is one that says the same.
+        whole: Option<String>,
     },
     /// A key that does not exist here.
     UnknownKey {
@@ -228,12 +235,14 @@ pub enum DiagnosticKind {
         /// The missing key.
         with: &'static str,
     },
-    /// A probability outside 0 to 1.
+    /// A probability outside its range.
     NotProbability {
         /// The key.
         key: String,
         /// The value found.
         found: f64,
+        /// The upper end of the range from 0.
+        below: f64,
     },
     /// A number that must be positive.
     NotPositive {
@@ -311,6 +320,11 @@ pub enum DiagnosticKind {
     /// An estimate's formula with an input that is not known exactly.
     EstimateOfInput {
         /// The input.
+        name: String,
+    },
+    /// A name in the formula of a value that may use conditions and constants, of which there are none.
+    NothingToUse {
+        /// The name in the formula.
         name: String,
     },
     /// An estimate's formula with a constant that is a formula of more than constants.
@@ -538,7 +552,7 @@ impl DiagnosticKind {
             Self::NotJson { .. } => "not-json",
             Self::NotFiniteInJson => "not-finite",
             Self::NumberTooLarge => "number-too-large",
-            Self::WrongType { .. } => "wrong-type",
+            Self::WrongType { .. } | Self::NotAlone { .. } => "wrong-type",
             Self::UnknownKey { .. } => "unknown-key",
             Self::DuplicateKey { .. } => "duplicate-key",
             Self::MissingKey { .. } | Self::NoDistribution { .. } => "missing-key",
@@ -573,6 +587,7 @@ impl DiagnosticKind {
             Self::Component { .. } => "bad-component",
             Self::Formula { .. } => "bad-formula",
             Self::EstimateOfInput { .. } => "estimate-of-input",
+            Self::NothingToUse { .. } => "bad-formula",
             Self::EstimateOfFormula { .. } => "estimate-of-formula",
             Self::EstimateUndefined { .. } => "estimate-undefined",
             Self::NoValues { .. } => "no-values",
@@ -646,6 +661,9 @@ impl DiagnosticKind {
                 error.in_whole(unit).suggestions().first().map(|s| (*s).to_owned())
             }
             Self::Formula { error } => error.suggestion(),
+            Self::NotProbability { found, .. } => {
+                of_percent(*found).map(|meant| Shortest(meant).to_string())
+            }
             _ => None,
         }
     }
@@ -686,7 +704,7 @@ fn meant(nearest: Option<&String>) -> String {
 impl fmt::Display for DiagnosticKind {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
-            Self::Unreadable { message } => write!(f, "cannot read the file: {message}"),
+            Self::Unreadable { message } => f.write_str(message),
             Self::Outside { name } => write!(
                 f,
                 "`{name}` is outside the folder of this file; a file may name only files below its \
@@ -703,8 +721,20 @@ impl fmt::Display for DiagnosticKind {
             Self::NumberTooLarge => {
                 f.write_str("this number is larger than any in double precision (1.8e308)")
             }
-            Self::WrongType { what, found, expected } => {
-                write!(f, "{what} is {found}, but must be {expected}")
+            Self::WrongType { what, found, expected } => match *found {
+                // as a field of a form that is not filled in
+                "null" => write!(f, "{what} is empty (null), but must be {expected}"),
+                _ => write!(f, "{what} is {found}, but must be {expected}"),
+            },
+            Self::NotAlone { key, whole } => {
+                write!(
+                    f,
+                    "`{key}` is a value with its uncertainty, but must be the estimate alone"
+                )?;
+                match whole {
+                    Some(whole) => write!(f, "; write `{whole}` instead of the object"),
+                    None => Ok(()),
+                }
             }
             Self::UnknownKey { key, what, nearest, homes, known } => {
                 write!(f, "unknown key `{key}` in {what}")?;
@@ -825,9 +855,11 @@ impl fmt::Display for DiagnosticKind {
             Self::OnlyWith { key, with } => {
                 write!(f, "`{key}` needs the key `{with}`, which is missing")
             }
-            Self::NotProbability { key, found } => {
-                let found = Shortest(*found);
-                write!(f, "`{key}` is {found}, but must be a probability between 0 and 1")
+            Self::NotProbability { key, found, below } => {
+                let (number, below) = (Shortest(*found), Shortest(*below));
+                write!(f, "`{key}` is {number}, but must be a probability between 0 and {below}")?;
+                let meant = of_percent(*found).map(Shortest);
+                meant.map_or(Ok(()), |meant| write!(f, "; did you mean {meant}?"))
             }
             Self::NotPositive { key, found } => {
                 write!(f, "`{key}` is {}, but must be above zero", Shortest(*found))?;
@@ -863,6 +895,11 @@ impl fmt::Display for DiagnosticKind {
                 "`{name}` has an uncertainty, but an estimate may depend only on conditions, \
                  constants, and inputs with the distribution `constant`; write the formula with \
                  `{name}` as one of the `equations`"
+            ),
+            Self::NothingToUse { name } => write!(
+                f,
+                "`{name}` is not defined; a formula here may use conditions and constants, and there \
+                 are none yet"
             ),
             Self::EstimateOfFormula { name } => write!(
                 f,

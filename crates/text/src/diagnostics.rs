@@ -83,8 +83,13 @@ fn shortened(part: &str) -> Cow<'_, str> {
 
 impl fmt::Display for Diagnostic {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let (name, message) = (printable(&self.source.name), self.message());
+        // there are no positions in a file that cannot be read
+        if self.source.text.is_empty() {
+            return write!(f, "{name}: {message}");
+        }
         let (line, column) = self.position();
-        write!(f, "{}:{line}:{column}: {}", printable(&self.source.name), self.message())
+        write!(f, "{name}:{line}:{column}: {message}")
     }
 }
 

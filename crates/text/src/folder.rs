@@ -6,10 +6,11 @@
 //! [`ROOT`] in a parent folder, which says that everything below belongs together. Links are
 //! resolved before the check.
 
-use std::fmt;
 use std::path::{Component, Path, PathBuf};
+use std::{fmt, io};
 
 use super::{DiagnosticKind, bytes};
+use gumption_columns::read_failure;
 
 /// In a folder with a file of this name, all files may name each other.
 pub(crate) const ROOT: &str = ".gumption-root";
@@ -79,13 +80,22 @@ impl<'a> Folder<'a> {
             return Ok(bytes.to_owned());
         }
         if let Some(source) = self.source {
-            return source.content(name, most).map_err(|message| DiagnosticKind::Unreadable {
-                message: format!("`{name}`: {message}"),
-            });
+            return source.content(name, most).map_err(|message| unreadable(name, &message));
         }
-        bytes::of_file(&self.file(name)?, most).map_err(|message| DiagnosticKind::Unreadable {
-            message: format!("`{name}`: {message}"),
-        })
+        bytes::of_file(&self.file(name)?, most).map_err(|message| unreadable(name, &message))
+    }
+
+    /// The path of the named file, which exists on the disk.
+    ///
+    /// # Errors
+    /// The errors of [`Folder::file`], or there is no such file.
+    pub fn existing(self, name: &str) -> Result<PathBuf, DiagnosticKind> {
+        let path = self.file(name)?;
+        match path.metadata() {
+            Ok(found) if found.is_dir() => Err(unreadable(name, read_failure::FOLDER)),
+            Ok(_) => Ok(path),
+            Err(error) => Err(unreadable(name, &read_failure::of_file(&path, &error))),
+        }
     }
 
     /// The name of the file in messages: for a file on disk its path from the current folder, so
@@ -147,12 +157,21 @@ impl<'a> Folder<'a> {
         if !is_below(&without_dots(&own.join(name))) {
             return Err(outside());
         }
-        match path.canonicalize() {
-            Ok(found) if !is_below(&found) => Err(outside()),
-            // the caller that opens the file reports that it is missing
-            _ => Ok(path),
-        }
+        // the caller that opens a missing file reports it, with the names in its folder
+        let found = path.canonicalize().or_else(|_| canonical_parent(&path));
+        if found.is_ok_and(|found| !is_below(&found)) { Err(outside()) } else { Ok(path) }
     }
+}
+
+/// The reason for a named file that cannot be read.
+fn unreadable(name: &str, reason: &str) -> DiagnosticKind {
+    DiagnosticKind::Unreadable { message: format!("`{name}`: {reason}") }
+}
+
+/// The folder of a path with its links resolved, or the nearest folder above it that exists.
+fn canonical_parent(path: &Path) -> io::Result<PathBuf> {
+    let existing = path.ancestors().skip(1).find(|folder| folder.is_dir());
+    existing.unwrap_or(Path::new("")).canonicalize()
 }
 
 /// The folder with its links resolved, or as written if that fails.
@@ -218,6 +237,9 @@ mod tests {
             std::os::unix::fs::symlink(at("secret.csv"), at("own/link.csv")).unwrap();
             std::os::unix::fs::symlink(at("own/a.csv"), at("own/near.csv")).unwrap();
             assert!(!asked("link.csv") && asked("near.csv"));
+            // nor does a linked folder reveal its names
+            std::os::unix::fs::symlink(at("other"), at("own/linked")).unwrap();
+            assert!(!asked("linked/c.csv") && !asked("linked/d.csv"));
         }
         fs::write(at(ROOT), "").unwrap();
         assert!(asked("../secret.csv") && !asked("/etc/passwd"));

@@ -258,6 +258,14 @@ pub fn states_uncertainty(text: &str) -> bool {
     matches!(stated(text), Ok((_, stated)) if !matches!(stated, Stated::Exact(_)))
 }
 
+/// A value with an uncertainty, with this unit if it states none; `None` if that is no such value.
+pub fn stated_in(text: &str, unit: &str) -> Option<String> {
+    let (own, _) = stated(text).ok()?;
+    let is_whole = !own.is_empty() || ["", "1"].contains(&unit);
+    let whole = if is_whole { text.to_owned() } else { format!("{text} {unit}") };
+    states_uncertainty(&whole).then_some(whole)
+}
+
 /// Parses a text into its unit (empty without one) and its values.
 fn stated(text: &str) -> Result<(String, Stated), String> {
     let text = with_plus_minus(&text.trim().replace('−', "-"));

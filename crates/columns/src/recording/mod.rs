@@ -18,6 +18,7 @@ use std::sync::Arc;
 
 use sha2::{Digest, Sha256};
 
+use crate::read_failure;
 use gumption_engine::fact::Fact;
 use gumption_engine::task::Warning;
 use gumption_signal::{BLOCK, BlockVisitor, InMemorySamples, Measured, SampleSource, in_blocks};
@@ -321,9 +322,9 @@ impl Bytes {
             Self::OnDisk(path) => path,
             Self::Held(bytes) => return Ok(Box::new(&**bytes)),
         };
-        let file = File::open(path).map_err(|error| error.to_string())?;
+        let file = File::open(path).map_err(|error| read_failure::of_file(path, &error))?;
         match file.metadata() {
-            Ok(data) if data.is_dir() => Err("it is a folder".to_owned()),
+            Ok(data) if data.is_dir() => Err(read_failure::FOLDER.to_owned()),
             _ => Ok(Box::new(file)),
         }
     }

@@ -11,6 +11,7 @@ use crate::exit::say;
 use crate::options::{AnswerOptions, TodaysReadings};
 use crate::{CommandLine, Exit, Failure};
 use gumption_analysis::certificate::contents::NAME_OF_READINGS;
+use gumption_columns::read_failure;
 use gumption_report::plain;
 
 /// A folder of files of readings, and the folder of their certificates.
@@ -68,7 +69,8 @@ impl Certificate {
             self.tells_certificates_apart(program)?;
         }
         fs::create_dir_all(out).map_err(|error| {
-            Failure::System(format!("cannot make the folder `{}`: {error}", out.display()))
+            let reason = read_failure::in_words(&error);
+            Failure::System(format!("cannot make the folder `{}`: {reason}", out.display()))
         })?;
         let (mut failed, mut is_of_system) = (Vec::new(), false);
         for (stem, path) in &named {
@@ -135,7 +137,8 @@ impl Certificate {
 /// The files of readings in a folder by their names without the end, in the order of these names.
 fn files_in(folder: &Path) -> Result<BTreeMap<PathBuf, PathBuf>, Failure> {
     let unreadable = |error| {
-        Failure::Argument(format!("cannot read the folder `{}`: {error}", folder.display()))
+        let reason = read_failure::of_folder(folder, &error);
+        Failure::Argument(format!("`{}`: {reason}", folder.display()))
     };
     let mut named: BTreeMap<PathBuf, PathBuf> = BTreeMap::new();
     for entry in fs::read_dir(folder).map_err(unreadable)? {

@@ -15,7 +15,7 @@ use super::{CommandLine, Exit, Failure, did_you_mean, output};
 use gumption_engine::model::typed::{Catalogue, CatalogueEntry};
 use gumption_units::all_nearest;
 
-/// List the typed models or describe one, or list the ready-made effects of the gap diagnosis.
+/// List the typed measurement models, or describe one.
 #[derive(Debug, Args)]
 pub(super) struct Models {
     /// A model to describe; with --effects the effect, with --examples the example

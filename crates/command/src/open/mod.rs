@@ -15,6 +15,7 @@ use super::exit::say;
 use super::surroundings::in_call;
 use super::{CommandLine, Exit, Failure, internal_error, signals};
 use answers::PageAnswers;
+use gumption_columns::read_failure;
 use gumption_report::plain;
 use gumption_server::{LocalServer, OpenedFolder, RequestTimes, ServerOptions};
 
@@ -92,7 +93,8 @@ impl Open {
     }
 
     fn unopened(&self, error: &io::Error) -> Failure {
-        Failure::Argument(format!("cannot open `{}`: {error}", shown(&self.path)))
+        let reason = read_failure::of_file(&self.path, error);
+        Failure::Argument(format!("`{}`: {reason}", shown(&self.path)))
     }
 
     fn unbound(&self, error: &io::Error) -> Failure {

@@ -1,6 +1,5 @@
 //! The page as a folder of files for any web server.
 
-use std::fs::File;
 use std::io;
 use std::path::Path;
 
@@ -54,8 +53,7 @@ fn put(path: &Path, content: &[u8]) -> Result<(), Failure> {
 /// The program for the page.
 fn program(path: &Path) -> Result<Vec<u8>, Failure> {
     let refuse = |reason: &str| Failure::Argument(format!("`--wasm {}`: {reason}", shown(path)));
-    let file = File::open(path).map_err(|error| refuse(&error.to_string()))?;
-    let content = bytes::of(file, MOST).map_err(|error| refuse(&error.to_string()))?;
+    let content = bytes::of_file(path, MOST).map_err(|reason| refuse(&reason))?;
     if !content.starts_with(MAGIC) {
         return Err(refuse("it is not a WebAssembly module"));
     }

@@ -3,6 +3,7 @@
 use std::io;
 use std::time::Duration;
 
+use gumption_columns::read_failure;
 use gumption_emulator::SimulatorCase;
 
 use super::child::{Expired, Running};
@@ -27,7 +28,11 @@ pub(super) enum NoResult {
 impl NoResult {
     pub(super) fn not_started(words: &[String], error: &io::Error) -> Self {
         let name = words.first().map_or("", String::as_str);
-        Self::Failed(format!("`{name}` cannot be started: {error}"))
+        let reason = match error.kind() {
+            io::ErrorKind::NotFound => "there is no such program".to_owned(),
+            _ => read_failure::in_words(error),
+        };
+        Self::Failed(format!("`{name}` cannot be started: {reason}"))
     }
 
     pub(super) fn too_much(most: usize) -> Self {

@@ -5,6 +5,7 @@ use std::io::{self, Read, Write};
 use std::ops::ControlFlow;
 use std::path::{Path, PathBuf};
 
+use gumption_columns::read_failure;
 use gumption_emulator::{Run, RunKey, RunResult, Runs, Simulator, SimulatorCase};
 
 use super::runs_file::{NAME, RunsFile, heading, read};
@@ -50,7 +51,9 @@ impl KeptRuns {
     ) -> Result<(Self, Vec<String>), Failure> {
         let path = folder.join(NAME);
         let shown = path.display().to_string();
-        let system = |error: io::Error| Failure::System(format!("`{shown}`: {error}"));
+        let system = |error: io::Error| {
+            Failure::System(format!("`{shown}`: {}", read_failure::in_words(&error)))
+        };
         std::fs::create_dir_all(folder).map_err(system)?;
         let options = &mut OpenOptions::new();
         let mut file = options.read(true).append(true).create(true).open(&path).map_err(system)?;

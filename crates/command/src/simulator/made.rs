@@ -3,6 +3,7 @@
 use std::path::Path;
 
 use gumption_columns::heading::named;
+use gumption_columns::read_failure;
 use gumption_emulator::{Run, RunResult, Runs, SimulatorCase, SimulatorQuantity};
 use gumption_text::table::{self, Table};
 use gumption_text::{Diagnostic, Diagnostics, SourceText, bytes};
@@ -40,8 +41,10 @@ pub fn made(folder: &Path, case: &SimulatorCase) -> Result<MadeRuns, Failure> {
     let kept = folder.join(NAME);
     if kept.is_file() {
         let name = kept.display().to_string();
-        let read = std::fs::read(&kept);
-        let bytes = read.map_err(|error| Failure::System(format!("`{name}`: {error}")))?;
+        let bytes = std::fs::read(&kept).map_err(|error| {
+            let reason = read_failure::of_file(&kept, &error);
+            Failure::System(format!("`{name}`: {reason}"))
+        })?;
         let RunsFile { runs, note, .. } = runs_file::read(&bytes, &name, case)?;
         let runs = runs.unwrap_or_else(|| Runs::new(case.parameter_names()));
         return Ok(MadeRuns { runs, notes: note.into_iter().collect() });

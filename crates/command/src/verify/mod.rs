@@ -16,7 +16,7 @@ use gumption_analysis::verification::{PublishedVerdict, RecomputedExample};
 use gumption_report::verification;
 use recompute::Machine;
 
-/// Recompute the published examples.
+/// Recompute the published examples on this machine, or compare its code paths.
 #[derive(Debug, Args)]
 pub(super) struct Verify {
     /// Instead, run every code path of this machine and print the hash over all trials of each

@@ -4,6 +4,7 @@
 use super::coverage::{self, WrittenNumber, limited, of_probability_alone};
 use super::document::{Measured, StatedUncertainties, at};
 use super::{agreement, intervals};
+use gumption_engine::number::of_percent;
 use gumption_text::implied_dof::Factor;
 use gumption_text::named_shape::NamedShape;
 
@@ -39,8 +40,10 @@ pub(super) fn known(of: &Measured, place: usize) -> Result<KnownValue, String> {
         && !(p > 0.0 && (p < 1.0 || p == 1.0 && is_bounded))
     {
         let whole = if is_bounded { ", or 1" } else { "" };
+        let meant =
+            of_percent(p).map_or_else(String::new, |p| format!("; {p} if it is in percent"));
         return Err(format!(
-            "has a coverage probability of {p}, which must be between 0 and 1{whole}"
+            "has a coverage probability of {p}, which must be between 0 and 1{whole}{meant}"
         ));
     }
     let stated_factor = at(&stated.factors, place);

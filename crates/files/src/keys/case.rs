@@ -75,7 +75,7 @@ pub(crate) const OBSERVED: &[Key] = keys![
                  Without it the noise is estimated from the data.",
             ),
     "sim" => text_of(
-                "The column of somebody else's simulation of the output, in place of an equation; \
+                "The column of another program's simulation of the output, instead of an equation; \
                  effects can then override outputs only.",
             ),
     "sim_standard_uncertainty" => column_or_width(
@@ -116,7 +116,7 @@ pub(crate) const SIMULATOR: &[Key] = keys![
 ];
 
 fn simulator() -> Value {
-    let about = "A program that gives the outputs of all rows at once, in place of `equations`. The \
+    let about = "A program that gives the outputs of all rows at once, instead of `equations`. The \
                  command line says which program, and no file. It gets all inputs, and the parameters of \
                  all effects that say `\"simulator\": true`.";
     let example = object([

@@ -65,7 +65,7 @@ fn days() -> Value {
 pub(crate) const CERTIFICATE: &[Key] = keys![
     "format" => object([("const", Value::from(1))]),
     "title" => referenced("localized", "Title; `Calibration certificate` unless given."),
-    "number" => text_of("Number of the certificate; `{readings}` stands for the name of the file of readings."),
+    "number" => text_of("Number of the certificate; `{readings}` becomes the name of the file of readings."),
     "device" => either("The device that was calibrated.", "device"),
     "customer" => either("The customer.", "party"),
     "laboratory" => either("The laboratory.", "party"),
@@ -82,7 +82,7 @@ pub(crate) const CERTIFICATE: &[Key] = keys![
     "language" => languages(),
     "decimal_mark" => described(
                 "string",
-                "Decimal mark of the pages; that of the first language unless given.",
+                "Decimal mark of the pages; by the first language unless given.",
             )
             .with("enum", texts(DecimalMark::ALL.map(DecimalMark::name))),
     "coverage_factor" => described(
@@ -112,7 +112,7 @@ pub(crate) const CERTIFICATE: &[Key] = keys![
     "layout" => referenced("layout", "The tables of the results; one with the usual columns unless given."),
     "letterhead" => referenced("letterhead", "Pictures and accreditation at the head of the first page."),
     "correlations" => described("boolean", "State the correlation coefficients of the rows. False unless given."),
-    "monte_carlo" => referenced("monte-carlo", "Trials and seed of all models, in place of their own."),
+    "monte_carlo" => referenced("monte-carlo", "Trials and seed of all models, instead of their own."),
     "conditions" => names("Conditions that the table shows; all of them unless given."),
     "shared_inputs" => names("Inputs that are one and the same quantity in all model files."),
     "separate_inputs" => names("Inputs that have a value of their own in every row."),
@@ -156,7 +156,7 @@ fn nominal() -> Value {
 
 /// Keys of a layout: the columns of its only table, or several tables.
 pub(crate) const LAYOUT: &[Key] = keys![
-    "title" => referenced("localized", "What stands above the table."),
+    "title" => referenced("localized", "The title above the table."),
     "columns" => columns(),
     "tables" => described("array", "Several tables; rows choose theirs by `table`.")
                 .with("items", reference("layout-table"))
@@ -166,7 +166,7 @@ pub(crate) const LAYOUT: &[Key] = keys![
 /// Keys of a table of a layout.
 pub(crate) const LAYOUT_TABLE: &[Key] = keys![
     "name" => text_of("The name by which rows choose the table."),
-    "title" => referenced("localized", "What stands above the table."),
+    "title" => referenced("localized", "The title above the table."),
     "columns" => columns(),
 ];
 
@@ -175,9 +175,9 @@ pub(crate) const LAYOUT_COLUMN: &[Key] = keys![
     "quantity" => text_of("An output, an input or a condition; for an output's U or k it can be left out if the table has one output."),
     "show" => described("string", "What the column shows of an output; `value` unless given.")
                 .with("enum", texts(ColumnContent::ALL.map(ColumnContent::name))),
-    "heading" => referenced("localized", "What stands above it instead of the name."),
+    "heading" => referenced("localized", "The heading above it instead of the name."),
     "unit" => text_of("The unit; for `U` also `%`, `ppm` or `µΩ/Ω`: U relative to the value."),
-    "relative_to" => text_of("The quantity to whose value U is relative; that of the column unless given."),
+    "relative_to" => text_of("The quantity to whose value U is relative; the quantity of the column unless given."),
     "decimals" => described("integer", "Number of decimals of an input or a condition.")
                 .with("minimum", 0)
                 .with("maximum", 15),
@@ -218,7 +218,7 @@ pub(crate) const CERTIFICATE_ROW: &[Key] = keys![
     "nominal" => nominal(),
     "statement" => referenced("statement", "Which method gives U of this row."),
     "label" => referenced("localized", "What the row is called instead of the output's name."),
-    "cmc" => referenced("width", "The laboratory's capability, in place of the output's."),
+    "cmc" => referenced("width", "The laboratory's capability, instead of the capability of the output."),
     "cmc_floor" => described("boolean", "Raise U to the capability where it is below it."),
 ];
 
@@ -241,8 +241,8 @@ pub(crate) const DEVICE: &[Key] = keys![
     "manufacturer" => text_of("Who made it."),
     "model" => text_of("Its model or type."),
     "condition" => referenced("localized", "Its condition when it was received."),
-    "serial_number" => text_of("Its serial number; `{readings}` stands for the name of the file of readings."),
-    "customer_number" => text_of("The customer's number for it; `{readings}` stands for the name of the file of readings."),
+    "serial_number" => text_of("Its serial number; `{readings}` becomes the name of the file of readings."),
+    "customer_number" => text_of("The customer's number for it; `{readings}` becomes the name of the file of readings."),
 ];
 
 fn device() -> Value {

@@ -42,7 +42,7 @@ fn root() -> Value {
 /// Keys of the costs of an input.
 pub(crate) const COST: &[Key] = keys![
     "cost" => positive(
-        "The scale of the cost cost ((u0/u)^power - 1) of a standard uncertainty u in place of u0: \
+        "The scale of the cost cost ((u0/u)^power - 1) of a standard uncertainty u instead of u0: \
          nothing as it is, and with power 1 the cost of halving it.",
     ),
     "power" => positive("The power; 1 unless given.").with("maximum", 100),
@@ -52,7 +52,7 @@ pub(crate) const COST: &[Key] = keys![
     ),
     "per_reading" => positive("The cost of each further reading, of an input of readings."),
     "most" => whole("The most readings altogether.", 2, 1_000_000_000),
-    "offers" => described("array", "What can be taken in place of what there is.")
+    "offers" => described("array", "What can replace the present inputs.")
         .with("items", reference("offer"))
         .with("minItems", 1),
 ];

@@ -38,7 +38,7 @@ pub(crate) const MODEL: &[Key] = keys![
     "units" => described("object", "Units of one's own by name: `\"HBW\": \"1\"`.")
         .with("additionalProperties", object([("type", Value::from("string"))])),
     "inputs" => named(
-                "What is known about the input quantities; their order is that of every table.",
+                "The input quantities with their distributions; tables list them in this order.",
                 object([("anyOf", Value::from(vec![reference("input"), reference("stated")]))]),
             ),
     "fits" => reference("fits"),
@@ -54,11 +54,11 @@ pub(crate) const MODEL: &[Key] = keys![
                 text_of("A formula in coherent SI units."),
             )
             .with("minProperties", 1),
-    "model" => text_of("Name of a typed model, in place of `equations`: `gumption models`."),
+    "model" => text_of("Name of a typed model, instead of `equations`; `gumption models` lists them."),
     "outputs" => named("The quantities to report.", reference("output")).with("minProperties", 1),
     "regions" => described("array", "Outputs that are covered together (JCGM 102).")
                 .with("items", closed("Two outputs or more.", REGION, &["outputs"])),
-    "coverage_probability" => referenced("probability", "Coverage probability; 0.9545, that of the factor 2, unless given."),
+    "coverage_probability" => referenced("probability", "Coverage probability; 0.9545 (coverage factor 2) unless given."),
     "coverage_factor" => described("number", "Coverage factor for infinite degrees of freedom; sets the \
                                  coverage probability.")
                 .with("exclusiveMinimum", 0)
@@ -74,9 +74,9 @@ pub(crate) const MODEL: &[Key] = keys![
         (
             "description",
             Value::from(
-                "Which figures stand beside those of the trials: `exact` ones of sums and products \
-                 of independent contributions, those of `quasi`-random points, none with \
-                 `monte-carlo`, which is the default; `auto` takes exact ones where there are any.",
+                "Results in addition to the results of the trials: `exact` for sums and products \
+                 of independent contributions, `quasi` for quasi-random points, `monte-carlo` (the \
+                 default) for none; `auto` takes exact results if there are any.",
             ),
         ),
         ("enum", texts(["auto", "monte-carlo", "exact", "quasi"])),
@@ -153,10 +153,10 @@ fn example() -> Value {
 
 /// Keys of a coverage region.
 pub(crate) const REGION: &[Key] = keys![
-    "outputs" => described("array", "Names of outputs; that of a complex one stands for its two parts.")
+    "outputs" => described("array", "Names of outputs; the name of a complex output means its two parts.")
                 .with("items", object([("type", Value::from("string"))]))
                 .with("minItems", 1),
-    "probability" => referenced("probability", "Coverage probability; that of the file unless given."),
+    "probability" => referenced("probability", "Coverage probability; the value of the file unless given."),
 ];
 
 /// Keys of an output.
@@ -200,7 +200,7 @@ pub(crate) const TOLERANCE: &[Key] = keys![
         "The width of the guard band in multiples of the expanded uncertainty U (ILAC-G8: 1).",
     )
     .with("exclusiveMinimum", 0),
-    "specification" => described("string", "What the tolerance is that of, for certificates."),
+    "specification" => described("string", "The specification that states the tolerance, for certificates."),
     "agreed" => described("boolean", "Whether the decision rule was agreed with the customer."),
 ];
 

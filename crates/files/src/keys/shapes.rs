@@ -174,7 +174,7 @@ pub(crate) static SHAPES: [FileShape; 26] = [
     FileShape {
         name: "lognormal",
         aliases: &[],
-        about: "Log-normal; `mean` and `std` are those of the quantity itself.",
+        about: "Log-normal; `mean` and `std` belong to the quantity itself.",
         fields: &["mean", "std", "resolution", "range", "full_scale"],
         rule: Rule::All(&["mean", "std"]),
     },
@@ -374,7 +374,7 @@ fn field(shape: &str, key: &str) -> Value {
         (_, "column") => text_of("The column of the file that has the readings."),
         (_, "groups") => text_of(
             "The column of the file that numbers the groups of a nested design (days, set-ups): the \
-             standard uncertainty is that of the means of the groups (JCGM 100, H.5).",
+             standard uncertainty follows from the means of the groups (JCGM 100, H.5).",
         ),
         ("readings", "resolution") => referenced(
             "width",
@@ -401,7 +401,7 @@ fn field(shape: &str, key: &str) -> Value {
         ("quantiles", "values") => referenced("values", "The quantiles of these probabilities."),
         (_, "values") => referenced("values", "The samples."),
         (_, "paired") => {
-            described("boolean", "Readings that were taken together with those of other inputs.")
+            described("boolean", "Readings that were taken together with readings of other inputs.")
         }
         ("samples", "file") => referenced(
             "file",
@@ -539,7 +539,7 @@ fn common(key: &str) -> Value {
         )
         .with("minItems", 2)
         .with("maxItems", 2),
-        "mean" => referenced("estimate", "The estimate; that of `readings` unless given."),
+        "mean" => referenced("estimate", "The estimate; the mean of `readings` unless given."),
         "components" => described("array", "Contributions that add up.")
             .with("items", reference("component"))
             .with("minItems", 1),
@@ -574,7 +574,7 @@ pub(super) fn definitions() -> Vec<(String, Value)> {
     let names = SHAPES.iter().flat_map(|shape| std::iter::once(&shape.name).chain(shape.aliases));
     let distribution = described(
         "string",
-        "What is known about the quantity. `uniform` is `rectangular`, `gaussian` `normal`, \
+        "The distribution of the quantity. `uniform` is `rectangular`, `gaussian` `normal`, \
          `u-shaped` `arcsine`, `student-t` `t`.",
     )
     .with("enum", texts(names.copied()));
@@ -653,7 +653,7 @@ fn choice(holder: Holder) -> Value {
     let needed = object([("required", texts(["distribution"]))])
         .with("properties", object([("distribution", reference("distribution"))]));
     let about = match holder {
-        Holder::Input => "What is known about an input quantity.",
+        Holder::Input => "An input quantity with its distribution.",
         Holder::Component => "One of several contributions to a quantity.",
     };
     let choice = described("object", about);

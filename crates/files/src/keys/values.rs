@@ -132,7 +132,7 @@ pub(super) fn definitions() -> Vec<(String, Value)> {
         (
             "unit",
             text_of(
-                "A unit: SI units with prefixes, products, quotients and powers, and those of \
+                "A unit: SI units with prefixes, products, quotients and powers, and units of \
                  laboratories; `1` for a number.",
             )
             .with("examples", texts(["m/s^2", "kHz", "kg*m^-3", "degC", "deg", "%", "1"])),

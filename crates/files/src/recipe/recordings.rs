@@ -214,13 +214,13 @@ impl RecordingFile {
     /// Where the bytes of one of its files are.
     ///
     /// # Errors
-    /// That it may not be read.
+    /// It may not be read, or there is none.
     pub(super) fn bytes(&self, name: &str) -> Result<Bytes, DiagnosticKind> {
         if let Some((_, bytes)) = self.held.iter().find(|(held, _)| held == name) {
             return Ok(Bytes::Held(Arc::clone(bytes)));
         }
         let folder = Folder::new(&self.folder, &self.allowed).within(self.within.as_deref());
-        folder.file(name).map(Bytes::OnDisk)
+        folder.existing(name).map(Bytes::OnDisk)
     }
 
     /// How to read one of its files, by its bytes and its name.

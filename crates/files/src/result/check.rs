@@ -29,7 +29,7 @@ pub(super) fn ranges(form: &ResultForm) -> Mistakes {
     let p = form.coverage_probability;
     if let Some(p) = p.filter(|p| *p <= 0.0 || *p >= 1.0) {
         let key = "coverage_probability".to_owned();
-        found.push((key.clone(), DiagnosticKind::NotProbability { key, found: p }));
+        found.push((key.clone(), DiagnosticKind::NotProbability { key, found: p, below: 1.0 }));
     }
     positive(&mut found, "scores", &[("step", Some(form.scores.step))]);
     if !(2..=MOST_QUANTILES).contains(&form.scores.count) {

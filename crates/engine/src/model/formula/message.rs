@@ -139,7 +139,7 @@ impl fmt::Display for FormulaError {
                 match (nearest.is_empty(), known.is_empty()) {
                     (false, _) => write!(f, "; did you mean {}?", listed(nearest, " or ")),
                     (true, false) => write!(f, "; names here are {}", listed(known, " and ")),
-                    (true, true) => f.write_str(", nor is any other name here"),
+                    (true, true) => f.write_str("; no inputs are defined yet"),
                 }
             }
             Self::DefinedLater { name, .. } => write!(
