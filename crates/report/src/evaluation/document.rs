@@ -21,11 +21,11 @@ const MORE: &str = "Everything: --full.";
 /// sweep a table and a figure for each.
 pub(super) fn of(report: &EvaluationReport<'_>, shown: &Shown<'_>) -> Document {
     let mut document = titled(report);
-    if let [row] = report.evaluation.rows.as_slice() {
-        if row.outputs.len() > 1 {
-            document.section("Results");
-            summary(&mut document, report, row);
-        }
+    if let [row] = report.evaluation.rows.as_slice()
+        && row.outputs.len() > 1
+    {
+        document.section("Results");
+        summary(&mut document, report, row);
     }
     sections(&mut document, report, shown);
     let notes = notes(report);

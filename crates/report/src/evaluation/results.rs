@@ -341,10 +341,7 @@ fn conclusions(
     sheet.text("result", lines.iter().map(|line| line.name.to_owned()));
     sheet.figures("value", lines.iter().map(|line| line.figure.clone()));
     let unit = |line: &budget::Conclusion| {
-        line.unit
-            .as_ref()
-            .filter(|unit| unit.has_name())
-            .map_or_else(String::new, |unit| unit_text(unit))
+        line.unit.as_ref().filter(|unit| unit.has_name()).map_or_else(String::new, unit_text)
     };
     sheet.units("unit", lines.iter().map(unit));
     let remark = |line: &budget::Conclusion| match (line.name, settings.coverage) {

@@ -24,8 +24,9 @@ const LEFT_EIGHTHS: [char; 8] = [' ', '▏', '▎', '▍', '▌', '▋', '▊', 
 pub(crate) fn horizontal_bar(share: f64, width: usize) -> String {
     let eighths = (8.0 * width as f64 * share.clamp(0.0, 1.0)).round() as usize;
     let mut bar = "█".repeat(eighths / 8);
-    if eighths % 8 > 0 {
-        bar.push(LEFT_EIGHTHS[eighths % 8]);
+    let rest = eighths % 8;
+    if rest > 0 {
+        bar.push(LEFT_EIGHTHS[rest]);
     }
     bar
 }
