@@ -173,6 +173,26 @@ pub fn for_each_block<E: Send + From<EvaluationError>>(
     })?
 }
 
+/// For each output its values in the first trials of a row, at most `most` of them, without the
+/// trials that were left out of the figures. Entry i of all outputs is of the same trial, and the
+/// bits are those of the run. `None` without trials, or if stopped.
+///
+/// # Errors
+/// A task that does not hold together.
+pub fn first_trials(
+    task: &Task,
+    evaluation: &Evaluation,
+    row: usize,
+    most: u64,
+    control: &Control<'_>,
+) -> Result<Option<Vec<Vec<f64>>>, EvaluationError> {
+    let count = made(evaluation, row).min(most);
+    in_pool(task, control, || {
+        let trials = trials(task, row)?.filter(|_| count > 0);
+        Ok(trials.and_then(|trials| monte_carlo::collected(&trials, count, control)))
+    })?
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
