@@ -243,6 +243,30 @@ mod tests {
         assert_eq!(stages, printed(&settled(little)));
     }
 
+    /// The first trials are those of the run, whatever the threads and the memory.
+    #[test]
+    fn the_first_trials_are_those_of_the_run() {
+        let task = task(30_000);
+        let evaluation = evaluate(&task, &Control::default()).unwrap();
+        let mut whole: Vec<Vec<f64>> = vec![Vec::new(); evaluation.rows[0].outputs.len()];
+        let all = for_each_block(&task, &evaluation, 0, &Control::default(), |block| {
+            whole.iter_mut().zip(block).for_each(|(kept, block)| kept.extend(block));
+            Ok::<(), EvaluationError>(())
+        });
+        assert_eq!(all, Ok(true));
+        let first = |most: usize, control: Control<'_>| {
+            first_trials(&task, &evaluation, 0, most as u64, &control).unwrap().unwrap_or_default()
+        };
+        for most in [1, 700, 12_345, 30_000, 1_000_000] {
+            let expected: Vec<&[f64]> =
+                whole.iter().map(|values| &values[..values.len().min(most)]).collect();
+            let little = Control::default().with_threads(3).with_memory(1 << 16);
+            assert_eq!(first(most, little), expected);
+            assert_eq!(first(most, Control::default().with_threads(1)), expected);
+        }
+        assert!(first(0, Control::default()).is_empty());
+    }
+
     #[test]
     fn without_trials_nothing_settles() {
         let task = task(0);

@@ -6,7 +6,7 @@ use plotters::style::RGBColor;
 use crate::html::Drawing;
 use crate::number::rounded;
 use crate::plot::{
-    AFTER, Axis, EVEN, FONT, INK, STRIP_AXIS, Strip, WIDER, length, line, stroke, svg,
+    AFTER, EVEN, FONT, INK, STRIP_AXIS, Strip, WIDER, axis_of_bars, length, line, stroke, svg,
 };
 use gumption_assumptions::{InputAudit, Kept, OutputAudit, VariantChange};
 
@@ -16,9 +16,8 @@ const BAR: f64 = 14.0;
 const LEFT: f64 = 220.0;
 const RIGHT: f64 = 8.0;
 
-/// Free space beyond the bars for their values, as a share of the axis: for a value of six letters on
-/// a narrow page.
-const VALUES: f64 = 0.3;
+/// Free space beside a value.
+const MARGIN: f64 = 7.0;
 
 /// Maximum number of rows; the largest changes are shown.
 const MOST: usize = 24;
@@ -55,25 +54,24 @@ pub(super) fn tornado(output: &OutputAudit, name: impl Fn(usize) -> String) -> O
 /// The change of half the length of the interval with every other shape, the largest first; `None`
 /// where nothing moves.
 pub(super) fn shapes(output: &OutputAudit, name: impl Fn(usize) -> String) -> Option<Drawing> {
-    let mut shapes: Vec<(String, f64)> = output
+    let mut shapes: Vec<Row> = output
         .inputs
         .iter()
         .flat_map(|input| input.alternatives.iter().map(move |other| (input, other)))
         .filter_map(|(input, other)| {
-            let shape = other.distribution.name();
-            let kept = match other.kept {
-                Kept::StandardUncertainty => "u",
-                Kept::Limits => "limits",
+            let colour = match other.kept {
+                Kept::StandardUncertainty => EVEN,
+                Kept::Limits => AFTER,
             };
-            let label = format!("{}: {shape}, {kept} kept", name(input.variable));
-            Some((label, seen(Some(&other.moved))?))
+            let name = format!("{}: {}", name(input.variable), other.distribution.name());
+            Some(Row { name, bars: vec![(seen(Some(&other.moved))?, colour)] })
         })
         .collect();
-    largest_first(&mut shapes, |shape| shape.1.abs());
-    let rows = shapes.into_iter().map(|(name, change)| Row { name, bars: vec![(change, AFTER)] });
+    largest_first(&mut shapes, |row| row.bars[0].0.abs());
     let caption = "Change of U, half the length of the coverage interval, if an input has another \
-                   shape with the standard uncertainty u or the limits kept, the largest first";
-    draw(rows.collect(), caption)
+                   shape with the same limits (dark) or the same standard uncertainty (pale), the \
+                   largest first";
+    draw(shapes, caption)
 }
 
 /// A change in per cent.
@@ -96,13 +94,18 @@ fn draw(mut rows: Vec<Row>, caption: &str) -> Option<Drawing> {
     if least == most {
         return None;
     }
-    let space = VALUES * (most - least);
-    let room = |end: f64| if end == 0.0 { 0.1 * space } else { space };
-    let axis = Axis::linear(least - room(least), most + room(most));
+    // for the values beside the bars
+    let texts = rows.iter().flat_map(|row| values(&row.bars));
+    let room = texts.fold([MARGIN; 2], |[left, right], (change, text)| {
+        let space = WIDER * length(&text, FONT - 1.0) + 2.0 * MARGIN;
+        if change < 0.0 { [left.max(space), right] } else { [left, right.max(space)] }
+    });
     let bottom = 4.0 + ROW * rows.len() as f64;
     let longest = rows.iter().map(|row| WIDER * length(&row.name, FONT)).fold(0.0, f64::max);
     let drawn = |width: f64| {
-        let strip = Strip::within(&axis, width, [longest.min(LEFT) + 16.0, RIGHT]);
+        let sides = [longest.min(LEFT) + 16.0, RIGHT];
+        let axis = axis_of_bars([least, most], (width, sides), room);
+        let strip = Strip::within(&axis, width, sides);
         svg(width, bottom + STRIP_AXIS, |area| {
             strip.draw(area, 0.0, bottom, LABEL)?;
             for (place, row) in rows.iter().enumerate() {

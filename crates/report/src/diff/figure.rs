@@ -9,8 +9,8 @@ use crate::html::Drawing;
 use crate::number::{position, significant, to};
 use crate::plain;
 use crate::plot::{
-    AFTER, Axis, BEFORE, EVEN, FAINT, FONT, INK, STRIP_AXIS, Strip, WIDER, length, line, stroke,
-    svg,
+    AFTER, BEFORE, EVEN, FAINT, FONT, INK, STRIP_AXIS, Strip, WIDER, axis_of_bars, length, line,
+    stroke, svg,
 };
 
 /// Heights of a row and of its bar in pixels, and the largest space for the names.
@@ -22,9 +22,6 @@ const RIGHT: f64 = 8.0;
 /// Maximum number of changes with a row of their own.
 const MOST: usize = 16;
 
-/// Free space beyond the bars for their values, as a share of the axis.
-const VALUES: f64 = 0.2;
-
 /// A bar between two values of U, with a text at its end.
 struct Step {
     name: String,
@@ -35,7 +32,7 @@ struct Step {
 
 /// U in the first file, the part of every change in descending order, and U in the second file;
 /// `None` where nothing changed, or the change cannot be shared out.
-pub(super) fn waterfall([a, b]: [&str; 2], output: &OutputDifference) -> Option<Drawing> {
+pub(super) fn waterfall(output: &OutputDifference) -> Option<Drawing> {
     let [Some(before), Some(after)] = output.expanded else { return None };
     let parts = output.parts.iter().filter(|part| part.is_changed() && part.change != Some(0.0));
     let parts = parts.map(|part| Some((plain(cause(part)), part.change?)));
@@ -51,12 +48,12 @@ pub(super) fn waterfall([a, b]: [&str; 2], output: &OutputDifference) -> Option<
     }
     let place = position(parts[0].1, 3);
     let total = |name: &str, value: f64| Step {
-        name: format!("U in {}", plain(name)),
+        name: name.to_owned(),
         ends: [0.0, value],
         text: significant(value, 3),
         colour: EVEN,
     };
-    let mut steps = vec![total(a, before)];
+    let mut steps = vec![total("U before", before)];
     let mut reached = before;
     for (name, change) in parts {
         let next = reached + change;
@@ -65,10 +62,11 @@ pub(super) fn waterfall([a, b]: [&str; 2], output: &OutputDifference) -> Option<
         steps.push(Step { name, ends: [reached, next], text, colour });
         reached = next;
     }
-    steps.push(total(b, after));
+    steps.push(total("U after", after));
     let most = steps.iter().flat_map(|step| step.ends).fold(0.0, f64::max);
     let least = steps.iter().flat_map(|step| step.ends).fold(0.0, f64::min);
-    let axis = Axis::linear(least, most + VALUES * (most - least));
+    let texts = steps.iter().map(|step| WIDER * length(&step.text, FONT - 1.0) + 14.0);
+    let room = texts.fold(0.0, f64::max);
     let longest = steps.iter().map(|step| WIDER * length(&step.name, FONT)).fold(0.0, f64::max);
     let bottom = 4.0 + ROW * steps.len() as f64;
     let drawn = |width: f64| {
@@ -76,7 +74,9 @@ pub(super) fn waterfall([a, b]: [&str; 2], output: &OutputDifference) -> Option<
             "" => format!("U({})", plain(&output.name)),
             unit => format!("U({}) in {unit}", plain(&output.name)),
         };
-        let strip = Strip::within(&axis, width, [longest.min(LEFT) + 16.0, RIGHT]);
+        let sides = [longest.min(LEFT) + 16.0, RIGHT];
+        let axis = axis_of_bars([least, most], (width, sides), [0.0, room]);
+        let strip = Strip::within(&axis, width, sides);
         svg(width, bottom + STRIP_AXIS, |area| {
             strip.draw(area, 0.0, bottom, &label)?;
             let middle = |row: usize| 4.0 + ROW * (row as f64 + 0.5);
@@ -95,8 +95,8 @@ pub(super) fn waterfall([a, b]: [&str; 2], output: &OutputDifference) -> Option<
         })
     };
     let caption =
-        "U by the law of propagation in both files (pale), and between them the part of each \
-                   change, the largest first: vermilion where U grows, blue where it falls."
+        "U by the law of propagation in the first file and in the second one (pale), and between \
+                   them the part of each change, the largest first: vermilion where U grows, blue where it falls."
             .to_owned();
     Some(Drawing::new(caption, drawn))
 }

@@ -176,7 +176,7 @@ fn paper([a, b]: [&str; 2], difference: &Difference) -> Document {
             }
             match changes(output) {
                 Some(sheet) => {
-                    paper.figure(figure::waterfall([a, b], output));
+                    paper.figure(figure::waterfall(output));
                     paper.table(sheet);
                 }
                 None => paper.text(NONE_CHANGED),

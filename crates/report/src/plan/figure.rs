@@ -1,7 +1,7 @@
 //! Plots of the output's uncertainty against each input, and against time.
 
 use gumption_engine::number::{largest_first, smallest_first};
-use plotters::element::{Circle, PathElement, Text};
+use plotters::element::{Circle, EmptyElement, PathElement, Text};
 use plotters::style::Color;
 use plotters::style::text_anchor::{HPos, Pos, VPos};
 
@@ -137,19 +137,19 @@ fn panel(report: &PlanReport<'_>, area: &Area<'_>, curve: &Curve<'_>) -> Drawn {
     let inside = chart.plotting_area();
     inside.draw(&PathElement::new(curve.points.to_vec(), stroke(INK, 1.5)))?;
     inside.draw(&dashed(vec![(0.0, target), (end, target)], stroke(INK, 1.0)))?;
-    for (mark, colour) in curve.marks.into_iter().zip([BEFORE, AFTER]) {
+    // the first dot is larger, so that both are seen where they agree
+    for (mark, (colour, size)) in curve.marks.into_iter().zip([(BEFORE, 5.0), (AFTER, 3.25)]) {
         if let Some(point) = mark.and_then(|mark| curve.point(mark)) {
-            inside.draw(&Circle::new(point, px(4.0), colour.filled()))?;
+            inside.draw(&Circle::new(point, px(size), colour.filled()))?;
         }
     }
     // its name is above the line, at the end where the curve is farther from it
     let height = |point: Option<&(f64, f64)>| point.map_or(0.0, |point| (point.1 - target).abs());
     let is_left = height(curve.points.first()) > height(curve.points.last());
-    let (x, side) = if is_left { (0.0, HPos::Left) } else { (end, HPos::Right) };
+    let (x, side, inwards) =
+        if is_left { (0.0, HPos::Left, px(4.0)) } else { (end, HPos::Right, -px(4.0)) };
     let style = text_style(FONT - 1.0, INK, false).pos(Pos::new(side, VPos::Bottom));
-    let (x, y) = chart.plotting_area().map_coordinate(&(x, target));
-    let inwards = if is_left { px(4.0) } else { -px(4.0) };
-    area.draw(&Text::new("target", (x + inwards, y - px(2.0)), style))
+    inside.draw(&(EmptyElement::at((x, target)) + Text::new("target", (inwards, -px(2.0)), style)))
 }
 
 impl Curve<'_> {

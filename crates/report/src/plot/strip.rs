@@ -150,6 +150,19 @@ impl<'a> Strip<'a> {
     }
 }
 
+/// A linear axis for bars between two values, with space in pixels beyond each end, in a figure with
+/// this width and space for names on the left ([`Strip::within`]).
+pub(crate) fn axis_of_bars(
+    [least, most]: [f64; 2],
+    (width, [left, right]): (f64, [f64; 2]),
+    room: [f64; 2],
+) -> Axis {
+    let give = (CHROME * width / (left + right)).min(1.0);
+    let bars = (width - give * (left + right) - room[0] - room[1]).max(1.0);
+    let unit = (most - least) / bars;
+    Axis::linear(least - room[0] * unit, most + room[1] * unit)
+}
+
 /// The number of tick marks that fit on a length in pixels.
 pub(crate) fn marks_within(length: f64) -> usize {
     ((length / MARK_ROOM) as usize).max(2)

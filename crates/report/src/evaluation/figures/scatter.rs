@@ -109,7 +109,7 @@ impl Pair<'_> {
         let chart = panel.draw(area)?;
         let inside = chart.plotting_area();
         for place in &self.dots {
-            inside.draw(&Circle::new(*place, px(1.25), WEAK.mix(0.5).filled()))?;
+            inside.draw(&Circle::new(*place, px(1.5), WEAK.mix(0.6).filled()))?;
         }
         if self.ellipse.is_empty() {
             return Ok(());
