@@ -112,3 +112,38 @@ fn histograms_that_cannot_be_drawn_are_refused() {
     let said = refused(&[MODEL, "--histogram", "--trials", "0"]);
     assert!(said.contains("needs Monte Carlo trials"), "{said}");
 }
+
+/// In every row of a sweep the shares of the inputs, of correlations and of all others add up to 100 %,
+/// each rounded to a tenth.
+#[test]
+fn shares_of_a_sweep_add_up() {
+    let tutorial = fs::read_to_string(crate::support::root().join("docs/tutorial.md")).unwrap();
+    let (_, model) = tutorial.split_once("```json file=transducer.json\n").expect("the model");
+    let (model, _) = model.split_once("\n```").expect("its end");
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("transducer.json");
+    fs::write(&path, model).unwrap();
+    let page = output(&[
+        "run",
+        path.to_str().unwrap(),
+        "--trials",
+        "2000",
+        "--format",
+        "markdown",
+        "--quiet",
+    ]);
+    let (_, table) = page.split_once("Shares of the variance in %:\n\n").expect("the shares");
+    let lines: Vec<Vec<&str>> = table
+        .lines()
+        .take_while(|line| line.starts_with('|'))
+        .map(|line| line.trim_matches('|').split('|').map(str::trim).collect())
+        .collect();
+    assert!(lines[0].iter().any(|header| header.starts_with("r(")), "{:?}", lines[0]);
+    // the first column is the condition, below the headers and a rule
+    assert_eq!(lines.len(), 2 + 5);
+    for line in &lines[2..] {
+        let number = |cell: &&str| cell.replace('\u{2212}', "-").parse::<f64>().expect("a number");
+        let sum: f64 = line[1..].iter().map(number).sum();
+        assert!((sum - 100.0).abs() < 0.06 * line.len() as f64, "{line:?}: {sum}");
+    }
+}

@@ -104,6 +104,8 @@ pub struct InputAudit {
     pub sobol: Option<Sobol>,
     /// Other shapes; empty for a Type A input or a constant.
     pub alternatives: Vec<Alternative>,
+    /// The variant in which it is known exactly; `None` for a constant.
+    pub removed: Option<VariantChange>,
     /// The variant with half the width; `None` as for the alternatives.
     pub halved: Option<VariantChange>,
     /// The width doubled.
@@ -195,7 +197,7 @@ pub fn trials_to_make(task: &Task, question: Question) -> u64 {
         let variants = row.distributions.iter().zip(&task.variables).map(|(known, variable)| {
             let changed = changed(variable.evaluation, known);
             let other = if changed { alternatives::alternatives(known).len() + 2 } else { 0 };
-            other + usize::from(known.constant().is_none())
+            other + 2 * usize::from(known.constant().is_none())
         });
         variants.sum::<usize>() as u64 + 3
     };
@@ -258,6 +260,9 @@ impl Auditor<'_> {
             .collect();
         let mut variants = Vec::new();
         for (place, others) in others.iter().enumerate() {
+            let known = &row.distributions[sampler.variables[place]];
+            let change = Change::Width { place, mean: known.mean(), factor: 0.0 };
+            variants.push(Variant { place, change, drawn_dof: f64::INFINITY });
             let Some(stated) = self.stated(&sampler, place) else {
                 continue;
             };
@@ -309,6 +314,7 @@ impl Auditor<'_> {
                     moves.get(output)?.get(first..first + count)
                 };
                 let own = place.and_then(own).unwrap_or_default();
+                let (removed, own) = own.split_first().map_or((None, own), |(a, b)| (Some(*a), b));
                 let shapes = place.and_then(|place| others.get(place));
                 let shapes = shapes.map_or(&[][..], Vec::as_slice);
                 let alternatives = shapes.iter().zip(own).map(|((kept, distribution), moved)| {
@@ -329,6 +335,7 @@ impl Auditor<'_> {
                     }),
                     sobol: sobol.filter(|_| finite),
                     alternatives: alternatives.collect(),
+                    removed,
                     halved: widths.first().copied(),
                     doubled: widths.get(1).copied(),
                     allowed: place

@@ -101,7 +101,7 @@ impl Assumptions {
             warnings: &warnings,
             provenance: &provenance,
         };
-        let answer = match self.answer.format {
+        let answer = || match self.answer.format {
             AssumptionsFormat::Table => report::assumptions::table(&report),
             AssumptionsFormat::Markdown => report::assumptions::markdown(&report),
             AssumptionsFormat::Html => page(report::assumptions::html(&report)),
@@ -109,7 +109,7 @@ impl Assumptions {
             AssumptionsFormat::Csv => report::assumptions::csv(&report),
         };
         self.answer.say(&warnings);
-        place.write(&answer)?;
+        self.answer.write_page(place, answer)?;
         Ok(Exit::Done)
     }
 

@@ -154,14 +154,14 @@ impl Compare {
             }
         };
         self.answer.say(&warnings);
-        let answer = match self.answer.format {
+        let answer = || match self.answer.format {
             CompareFormat::Table => report::table(&found),
             CompareFormat::Html => page(report::html(&found, &warnings)),
             CompareFormat::Markdown => report::markdown(&found, &warnings),
             CompareFormat::Json => report::json(&found, &warnings),
             CompareFormat::Csv => report::csv(&found),
         };
-        place.write(&answer)?;
+        self.answer.write_page(place, answer)?;
         Ok(if self.fail && !found.is_compatible() { Exit::No } else { Exit::Done })
     }
 

@@ -92,13 +92,13 @@ impl Diff {
             return Ok(Exit::Interrupted);
         }
         let names = [&first, &second].map(ModelOrResult::name);
-        let answer = match self.answer.format {
+        let answer = || match self.answer.format {
             DiffFormat::Table => report::diff::table(names, &difference),
             DiffFormat::Json => report::diff::json(names, &difference),
             DiffFormat::Markdown => report::diff::markdown(names, &difference),
             DiffFormat::Html => page(report::diff::html(names, &difference)),
         };
-        place.write(&answer)?;
+        self.answer.write_page(place, answer)?;
         Ok(Exit::Done)
     }
 

@@ -1,6 +1,5 @@
 //! Options and output of an evaluation: formats, result file, trials, figures, and `--fail`.
 
-use std::io::{self, Write};
 use std::path::PathBuf;
 use std::sync::atomic::{AtomicBool, Ordering};
 
@@ -11,7 +10,9 @@ use super::options::{self, AnswerOptions, Interactive, Page};
 use super::output::{AnswerPlace, Destination};
 use super::{Exit, Failure, output, save};
 use gumption_engine::propagate::monte_carlo::{Histogram, MonteCarlo};
-use gumption_engine::propagate::{Control, Evaluation, convergence, histograms, warnings};
+use gumption_engine::propagate::{
+    Control, Evaluation, convergence, first_trials, histograms, warnings,
+};
 use gumption_engine::task::{Task, Trials};
 use gumption_files::ModelFile;
 use gumption_report as report;
@@ -99,6 +100,8 @@ impl Evaluated {
             ("--samples", self.samples.as_ref().map(save::SampleFile::path)),
         ];
         let [answer, saved, samples] = output::open(asked, read)?;
+        let written = [&saved, &samples].into_iter().flatten().map(|file| file.path().to_owned());
+        self.answer.check_figures(&read.iter().cloned().chain(written).collect::<Vec<_>>())?;
         Ok(Places { answer, saved, samples })
     }
 
@@ -120,7 +123,9 @@ impl Evaluated {
         self.answer.say(&notes);
         let histograms = self.histograms(&report, control)?;
         let convergence = self.convergence(&report, control)?;
+        let trials = self.first_trials(&report, control)?;
         let shown = Shown {
+            trials: &trials,
             columns: &self.columns,
             histograms: &histograms,
             convergence: &convergence,
@@ -143,7 +148,15 @@ impl Evaluated {
             if format == Page::Table { AnswerPlace::Page } else { AnswerPlace::StandardOutput };
         let place = answer.map_or(page, AnswerPlace::File);
         let page = self.interactive.of(&self.answer)?;
-        let written = place.write_with(|out| write((format, page), &report, &shown, out));
+        let written = match format {
+            Page::Table => place.write(&report::table(&report, &shown)),
+            Page::Html => place.write(&page(report::html(&report, &shown))),
+            Page::Markdown => self.answer.write_page(place, || report::markdown(&report, &shown)),
+            Page::Latex => self.answer.write_page(place, || report::latex(&report, &shown)),
+            Page::Json => place.write_with(|out| report::write_json(&report, out)),
+            Page::Csv => place.write_with(|out| report::write_csv(&report, out)),
+            Page::Xlsx => place.write_with(|out| out.write_all(&report::xlsx(&report, &shown)?)),
+        };
         let mut failures: Vec<Failure> = written.err().into_iter().collect();
         for (path, left) in left.into_iter().flatten() {
             match left {
@@ -241,7 +254,8 @@ impl Evaluated {
     ) -> Result<Vec<Vec<Option<Histogram>>>, Failure> {
         let EvaluationReport { task, evaluation, .. } = *report;
         let rows = match self.answer.format {
-            Page::Html | Page::Xlsx if evaluation.rows.len() == 1 => 1,
+            Page::Xlsx if evaluation.rows.len() == 1 => 1,
+            _ if self.has_figures(evaluation) => 1,
             Page::Table if self.histogram => evaluation.rows.len(),
             Page::Table if self.full && evaluation.rows.len() == 1 => 1,
             _ => 0,
@@ -253,6 +267,26 @@ impl Evaluated {
         Ok(all)
     }
 
+    /// The first trials of several outputs, if the answer shows them.
+    fn first_trials(
+        &self,
+        report: &EvaluationReport<'_>,
+        control: &Control<'_>,
+    ) -> Result<Vec<Vec<f64>>, Failure> {
+        let EvaluationReport { task, evaluation, .. } = *report;
+        if !self.has_figures(evaluation) {
+            return Ok(Vec::new());
+        }
+        let most = report::trials_of_pairs(report);
+        Ok(first_trials(task, evaluation, 0, most, control)?.unwrap_or_default())
+    }
+
+    /// Whether the page of a single row of conditions has figures.
+    fn has_figures(&self, evaluation: &Evaluation) -> bool {
+        evaluation.rows.len() == 1
+            && (self.answer.format == Page::Html || self.answer.has_figures_beside())
+    }
+
     /// The convergence of the results, if the answer shows it.
     fn convergence(
         &self,
@@ -260,28 +294,10 @@ impl Evaluated {
         control: &Control<'_>,
     ) -> Result<Vec<Vec<MonteCarlo>>, Failure> {
         let EvaluationReport { task, evaluation, .. } = *report;
-        if self.answer.format != Page::Html || evaluation.rows.len() != 1 {
+        if !self.has_figures(evaluation) {
             return Ok(Vec::new());
         }
         Ok(convergence(task, evaluation, 0, control)?.unwrap_or_default())
-    }
-}
-
-/// Writes the answer in a format; `page` modifies an HTML page.
-fn write(
-    (format, page): (Page, fn(String) -> String),
-    report: &EvaluationReport<'_>,
-    shown: &Shown<'_>,
-    out: &mut dyn Write,
-) -> io::Result<()> {
-    match format {
-        Page::Table => out.write_all(report::table(report, shown).as_bytes()),
-        Page::Json => report::write_json(report, out),
-        Page::Csv => report::write_csv(report, out),
-        Page::Markdown => out.write_all(report::markdown(report, shown).as_bytes()),
-        Page::Latex => out.write_all(report::latex(report, shown).as_bytes()),
-        Page::Html => out.write_all(page(report::html(report, shown)).as_bytes()),
-        Page::Xlsx => out.write_all(&report::xlsx(report, shown)?),
     }
 }
 

@@ -97,10 +97,11 @@ impl Gap {
                 diagnosis
             }
         };
-        let answer = match self.answer.format {
-            GapFormat::Table => report::gap::table(&diagnosis, &self.provenance(&file)?),
-            GapFormat::Html => page(report::gap::html(&diagnosis, &self.provenance(&file)?)),
-            GapFormat::Markdown => report::gap::markdown(&diagnosis, &self.provenance(&file)?),
+        let provenance = self.provenance(&file)?;
+        let answer = || match self.answer.format {
+            GapFormat::Table => report::gap::table(&diagnosis, &provenance),
+            GapFormat::Html => page(report::gap::html(&diagnosis, &provenance)),
+            GapFormat::Markdown => report::gap::markdown(&diagnosis, &provenance),
             GapFormat::Json => report::gap::json(&diagnosis),
             GapFormat::Csv => report::gap::csv(&diagnosis),
         };
@@ -108,7 +109,7 @@ impl Gap {
         if self.answer.format != GapFormat::Table || self.answer.is_to_file() {
             self.answer.note(diagnosis.notes.iter().map(report::gap::note));
         }
-        place.write(&answer)?;
+        self.answer.write_page(place, answer)?;
         Ok(if diagnosis.interrupted { Exit::Interrupted } else { Exit::Done })
     }
 

@@ -14,6 +14,7 @@ mod diff;
 mod evaluated;
 mod exit;
 mod exported;
+mod figures;
 pub mod freed_memory;
 mod gap;
 mod gap_check;

@@ -57,7 +57,8 @@ impl Observe {
         let mut rows = Vec::new();
         let mut traces = Vec::new();
         for row in 0..file.rows.len() {
-            let is_page = self.answer.format == ObserveFormat::Html;
+            let is_page =
+                self.answer.format == ObserveFormat::Html || self.answer.has_figures_beside();
             let ObservedRow { observation, traces: seen, warnings: found, digests } =
                 observed(&file, row, is_page)?;
             traces.push(seen);
@@ -83,7 +84,7 @@ impl Observe {
             warnings: &warnings,
             provenance: &provenance,
         };
-        let answer = match self.answer.format {
+        let answer = || match self.answer.format {
             ObserveFormat::Table => report::table(&found),
             ObserveFormat::Json => report::json(&found),
             ObserveFormat::Csv => report::csv(&found),
@@ -94,7 +95,7 @@ impl Observe {
         if self.answer.format != ObserveFormat::Table || self.answer.is_to_file() {
             self.answer.say(&warnings);
         }
-        place.write(&answer)?;
+        self.answer.write_page(place, answer)?;
         Ok(Exit::Done)
     }
 }

@@ -71,6 +71,7 @@ pub(super) struct AnswerOptions<F: ValueEnum + Send + Sync + 'static> {
 impl<F: ValueEnum + Send + Sync + 'static> AnswerOptions<F> {
     /// Opens the destination of the answer; `read` are the files from which it is computed.
     pub(super) fn open(&self, read: &[PathBuf]) -> Result<AnswerPlace, Failure> {
+        self.check_figures(read)?;
         let [file] = output::open([("--output", output::to_file(self.output.as_deref()))], read)?;
         let is_page = self.format.to_possible_value().is_some_and(|of| of.get_name() == "table");
         let page = if is_page { AnswerPlace::Page } else { AnswerPlace::StandardOutput };

@@ -152,7 +152,7 @@ fn check(asked: &[FileOption<'_>], read: &[PathBuf]) -> Result<(), Failure> {
 
 /// Identifies a file, whatever it is called.
 #[derive(Debug, PartialEq, Eq)]
-enum Identity {
+pub(super) enum Identity {
     /// Device and number of a file on Unix.
     #[cfg(unix)]
     Node(u64, u64),
@@ -162,7 +162,7 @@ enum Identity {
 
 impl Identity {
     /// `None` for devices, which may be written several times.
-    fn of(path: &Path) -> Option<Self> {
+    pub(super) fn of(path: &Path) -> Option<Self> {
         let Ok(found) = std::fs::metadata(path) else {
             let target = target(path);
             let folder = folder_of(&target).canonicalize().ok()?;
@@ -198,6 +198,14 @@ impl Destination {
     /// The path, as it was given.
     pub(super) fn path(&self) -> &Path {
         &self.path
+    }
+
+    /// Whether it is a file, or else a device or a pipe.
+    pub(super) fn is_regular(&self) -> bool {
+        match &self.sink {
+            Sink::Replacement(_) => true,
+            Sink::InPlace(file) => file.metadata().is_ok_and(|found| found.is_file()),
+        }
     }
 
     /// Lets `write` write the content; if it returns false or fails, the file stays unchanged.
@@ -275,7 +283,7 @@ fn is_device(path: &Path) -> bool {
 }
 
 /// A name as messages show it.
-fn shown(path: &Path) -> String {
+pub(super) fn shown(path: &Path) -> String {
     gumption_report::plain(&path.display().to_string())
 }
 

@@ -113,7 +113,7 @@ impl Planning {
             warnings: &file.warnings,
             provenance: &provenance,
         };
-        let answer = match self.answer.format {
+        let answer = || match self.answer.format {
             PlanFormat::Table => report::table(&report),
             PlanFormat::Markdown => report::markdown(&report),
             PlanFormat::Json => report::json(&report),
@@ -121,7 +121,7 @@ impl Planning {
             PlanFormat::Html => page(report::html(&report)),
         };
         self.answer.say(&file.warnings);
-        place.write(&answer)?;
+        self.answer.write_page(place, answer)?;
         Ok(Exit::Done)
     }
 

@@ -37,9 +37,10 @@ mod workbook;
 pub use answer::{on_one_line, pretty};
 pub use budget_template::budget_template;
 pub use csv::{csv, of_records as csv_of_records, write_csv};
+pub use document::{FigureNames, PageWithFigures, with_figures};
 pub use evaluation::{
     Extent, MOST_RESULTS, OutputParts, PageChoice, PageParts, ResultStatement, Shown, html,
-    input_picture, latex, markdown, page_parts, table, xlsx,
+    input_picture, latex, markdown, page_parts, table, trials_of_pairs, xlsx,
 };
 pub use html::{FigureSize, interactive, interactive_script_digest, page_style};
 pub use json::{json, write_json};

@@ -7,7 +7,7 @@ use gumption::command::Failure;
 use gumption::file::ModelFile;
 use gumption::propagate::monte_carlo::{Histogram, MonteCarlo};
 use gumption::propagate::{
-    Control, Evaluation, EvaluationError, convergence, for_each_block, histograms,
+    Control, Evaluation, EvaluationError, convergence, first_trials, for_each_block, histograms,
 };
 use gumption::report::{self, EvaluationReport, Provenance, SaveError, Shown, TrialsForm};
 use gumption::task::{Task, Warning};
@@ -98,7 +98,14 @@ impl Ran {
             let found = convergence(&self.task, &self.evaluation, 0, control);
             settled = found.map_err(|error| error.to_string())?.unwrap_or_default();
         }
+        let mut first: Vec<Vec<f64>> = Vec::new();
+        if format == "html" {
+            let most = report::trials_of_pairs(&report);
+            let found = first_trials(&self.task, &self.evaluation, 0, most, control);
+            first = found.map_err(|error| error.to_string())?.unwrap_or_default();
+        }
         let shown = Shown {
+            trials: &first,
             columns: &[],
             histograms: &drawn,
             convergence: &settled,

@@ -257,8 +257,8 @@ impl GumRow {
         !self.linked.correlations.is_empty()
     }
 
-    /// Correlation coefficients of the outputs i < j.
-    pub(crate) fn correlations(&self) -> Vec<f64> {
+    /// Correlation coefficients of the outputs i < j; NaN where one does not vary or is not linear.
+    pub fn correlations(&self) -> Vec<f64> {
         let u = &self.uncertainties;
         let covariance = |a: &[f64], b: &[f64]| -> f64 {
             let own: f64 = (0..u.len()).map(|i| a[i] * b[i] * u[i].powi(2)).sum();

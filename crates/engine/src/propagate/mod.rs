@@ -53,7 +53,8 @@ pub use region_figures::{
     JointRegion, Region, RegionEvaluation, RegionValidation, SampledRegion, SmallestRegion,
 };
 pub use replay::{
-    convergence, for_each_block, histograms, joint_ranks, quantiles, quantiles_and_ranks,
+    convergence, first_trials, for_each_block, histograms, joint_ranks, quantiles,
+    quantiles_and_ranks,
 };
 pub use second_order::SecondOrder;
 pub use statement::{Basis, Stated};

@@ -173,6 +173,26 @@ pub fn for_each_block<E: Send + From<EvaluationError>>(
     })?
 }
 
+/// For each output its values in the first trials of a row, at most `most` of them, without the
+/// trials that were left out of the figures. Entry i of all outputs is of the same trial, and the
+/// bits are those of the run. `None` without trials, or if stopped.
+///
+/// # Errors
+/// A task that does not hold together.
+pub fn first_trials(
+    task: &Task,
+    evaluation: &Evaluation,
+    row: usize,
+    most: u64,
+    control: &Control<'_>,
+) -> Result<Option<Vec<Vec<f64>>>, EvaluationError> {
+    let count = made(evaluation, row).min(most);
+    in_pool(task, control, || {
+        let trials = trials(task, row)?.filter(|_| count > 0);
+        Ok(trials.and_then(|trials| monte_carlo::collected(&trials, count, control)))
+    })?
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -221,6 +241,30 @@ mod tests {
         assert_eq!(stages, printed(&settled(Control::default().with_threads(3))));
         let little = Control::default().with_threads(1).with_memory(1 << 16);
         assert_eq!(stages, printed(&settled(little)));
+    }
+
+    /// The first trials are those of the run, whatever the threads and the memory.
+    #[test]
+    fn the_first_trials_are_those_of_the_run() {
+        let task = task(30_000);
+        let evaluation = evaluate(&task, &Control::default()).unwrap();
+        let mut whole: Vec<Vec<f64>> = vec![Vec::new(); evaluation.rows[0].outputs.len()];
+        let all = for_each_block(&task, &evaluation, 0, &Control::default(), |block| {
+            whole.iter_mut().zip(block).for_each(|(kept, block)| kept.extend(block));
+            Ok::<(), EvaluationError>(())
+        });
+        assert_eq!(all, Ok(true));
+        let first = |most: usize, control: Control<'_>| {
+            first_trials(&task, &evaluation, 0, most as u64, &control).unwrap().unwrap_or_default()
+        };
+        for most in [1, 700, 12_345, 30_000, 1_000_000] {
+            let expected: Vec<&[f64]> =
+                whole.iter().map(|values| &values[..values.len().min(most)]).collect();
+            let little = Control::default().with_threads(3).with_memory(1 << 16);
+            assert_eq!(first(most, little), expected);
+            assert_eq!(first(most, Control::default().with_threads(1)), expected);
+        }
+        assert!(first(0, Control::default()).is_empty());
     }
 
     #[test]

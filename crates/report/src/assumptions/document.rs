@@ -20,12 +20,14 @@ pub(super) fn of(report: &AuditReport<'_>) -> Document {
             document.section(words::heading(report, row, output));
             document.text(words::baseline(report, output, of));
             document.blocks.push(Block::Verdict(vec![words::verdict(report, of)]));
+            let name = |variable| plain(report.name(variable));
+            document.figure(figure::tornado(of, name));
             document.table(sheets::widths(report, of));
             if let Some(shapes) = sheets::shapes(report, of) {
                 document.text("With another shape:");
                 document.table(shapes);
             }
-            document.figure(figure::draw(of, |variable| plain(report.name(variable))));
+            document.figure(figure::shapes(of, name));
         }
     }
     if let Some(evidence) = sheets::evidence(report) {

@@ -113,7 +113,9 @@ fn input_tree(report: &AuditReport<'_>, input: &InputAudit) -> Value {
     ];
     entries.extend(indices(input.sobol.as_ref()));
     entries.push(("alternatives", list(alternatives)));
-    for (key, width) in [("halved", &input.halved), ("doubled", &input.doubled)] {
+    let widths =
+        [("removed", &input.removed), ("halved", &input.halved), ("doubled", &input.doubled)];
+    for (key, width) in widths {
         entries.push((key, width.as_ref().map_or(Value::Null, |of| object(moved(of)))));
     }
     entries.push(("allowed_change", input.allowed.into()));

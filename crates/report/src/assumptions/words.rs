@@ -2,6 +2,7 @@
 
 use super::AuditReport;
 use crate::number::{coarser, position, rounded, significant, to};
+use crate::table::in_unit;
 use crate::{conditions_text, grouped, plain};
 use gumption_assumptions::{
     EvidenceOffset, EvidenceTest, EvidenceVerdict, InputAudit, OutputAudit,
@@ -61,15 +62,19 @@ pub(super) fn heading(report: &AuditReport<'_>, row: usize, output: usize) -> St
 
 /// The figures with everything as stated.
 pub(super) fn baseline(report: &AuditReport<'_>, output: usize, of: &OutputAudit) -> String {
-    let unit = report.task.model.outputs.get(output).map_or("", |o| o.quantity.unit.text());
-    let unit = if matches!(unit.trim(), "" | "1") { String::new() } else { format!(" {unit}") };
+    let unit = report.task.model.outputs.get(output).map(|o| &o.quantity.unit);
+    let with_unit = |value: &str| unit.map_or_else(|| value.to_owned(), |u| in_unit(value, u));
     let [low, high] = of.baseline.symmetric_interval;
     let u = of.baseline.standard_uncertainty;
     let digits = u.and_then(|u| position(u, 2)).or(coarser(position(high - low, 3), None));
     let p = percent(report.audit.coverage_probability);
-    let interval = format!("{p} % interval {} to {}{unit}", to(low, digits), to(high, digits));
+    let high = with_unit(&to(high, digits));
+    let interval = format!("{p} % interval {} to {high}", to(low, digits));
     match u {
-        Some(u) => format!("As stated: u = {}{unit}, {interval}.", to(u, position(u, 2))),
+        Some(u) => {
+            let u = with_unit(&to(u, position(u, 2)));
+            format!("As stated: u = {u}, {interval}.")
+        }
         None => format!("As stated: no standard uncertainty, {interval}."),
     }
 }

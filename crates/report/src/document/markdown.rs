@@ -1,5 +1,6 @@
 //! A document as GitHub shows it: GitHub Flavored Markdown, without HTML.
 
+use super::beside::{FigureBeside, beside};
 use super::{Block, Document};
 use crate::number::align;
 use crate::printed::{self, Notation, in_print};
@@ -55,7 +56,10 @@ fn block(block: &Block, comma: bool, escape: Escape) -> String {
             items.join("\n")
         }
         Block::Table(sheet) => table(sheet, escape),
-        Block::Figure(_) | Block::Characters(_) => String::new(),
+        Block::Figure(drawing) => {
+            beside(drawing).map_or_else(String::new, |of| figure(&of, escape))
+        }
+        Block::Characters(_) => String::new(),
         Block::Folded(title, blocks) => {
             let blocks = blocks.iter().map(|part| self::block(part, comma, escape));
             let parts: Vec<String> =
@@ -69,6 +73,13 @@ fn block(block: &Block, comma: bool, escape: Escape) -> String {
         Block::End(text) => format!("— {} —", escape(text)),
         Block::Listing { about, text } => listing(about, text, escape),
     }
+}
+
+/// A figure above its caption.
+fn figure(of: &FigureBeside<'_>, escape: Escape) -> String {
+    let FigureBeside { number, name, caption } = of;
+    let caption = escape(caption);
+    format!("![Figure {number}]({name})\n\n**Figure {number}.** {caption}")
 }
 
 /// A table whose source is aligned too.

@@ -1,12 +1,14 @@
 //! A document without a format: its content in order. Markdown, LaTeX and HTML each draw the same
 //! document, so that a number is rounded once and is the same everywhere.
 
+mod beside;
 mod html;
 mod latex;
 mod letterhead;
 mod markdown;
 mod text;
 
+pub use beside::{FigureNames, PageWithFigures, with_figures};
 pub(super) use html::{fragment, html};
 pub(super) use latex::latex;
 #[cfg(test)]
@@ -98,7 +100,7 @@ pub(crate) enum Block {
     List(Vec<String>),
     /// A table.
     Table(Sheet),
-    /// A figure, which only HTML pages show.
+    /// A figure: part of an HTML page, and a file beside a Markdown or LaTeX page ([`with_figures`]).
     Figure(Drawing),
     /// A figure drawn in characters, which only pages for a terminal show; each line ends in a newline.
     Characters(String),

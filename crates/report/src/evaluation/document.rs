@@ -185,6 +185,11 @@ pub(super) fn together_of(
     match evaluation.rows.as_slice() {
         [row] => {
             together(document, task, row);
+            if row.regions.is_empty() {
+                let of_row = (0, evaluation.coverage_probability);
+                let drawn = || figures::scatter(task, of_row, shown.trials);
+                document.picture(drawn, || None);
+            }
             crate::regions::sections(document, task, row);
         }
         _ => sweep::sections(document, report, shown),

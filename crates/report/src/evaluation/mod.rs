@@ -10,6 +10,7 @@ mod sweep;
 mod terminal;
 mod workbook;
 
+pub use figures::trials_of_pairs;
 pub use parts::{OutputParts, PageChoice, PageParts, input_picture, page_parts};
 pub use results::ResultStatement;
 pub(crate) use results::Taken;
@@ -41,6 +42,9 @@ pub struct Shown<'a> {
     /// For each output of the row that is shown how its figures settle with the number of trials, the
     /// last ones being those of all ([`gumption_engine::propagate::convergence`]); or none.
     pub convergence: &'a [Vec<MonteCarlo>],
+    /// For each output of the row that is shown its values in the first trials
+    /// ([`gumption_engine::propagate::first_trials`], as many as [`trials_of_pairs`]); or none.
+    pub trials: &'a [Vec<f64>],
     /// What the command line replaces in the model file, as it was typed.
     pub replaced: &'a [String],
     /// How much a text page shows; other pages show everything.

@@ -1,6 +1,6 @@
 //! The distribution of an output in a terminal, without colours: it reads on dark and on light.
 
-use crate::number::{position, to};
+use crate::number::{exact, position, to};
 use crate::plot::{Axis, CharacterGrid};
 use crate::table::{grouped, text_width, title_text};
 use crate::wrapped;
@@ -24,23 +24,45 @@ fn narrowed(counts: &Histogram) -> Histogram {
     }
 }
 
-/// The histogram of an output as lines of at most 100 columns: bars, an axis with its marks, and the
-/// coverage intervals of both methods below.
+/// An interval below the bars.
+struct IntervalLine {
+    name: &'static str,
+    /// Its ends, infinite where it has none.
+    ends: [f64; 2],
+    /// Whether its ends are written as they are stated, or else to what the axis tells apart.
+    is_stated: bool,
+}
+
+/// The coverage intervals of both methods, and the limits of an output with a tolerance.
+fn intervals(found: &OutputEvaluation) -> Vec<IntervalLine> {
+    let figures = found.monte_carlo.as_ref();
+    let conformity = found.conformity.as_deref();
+    let guarded = conformity.filter(|of| of.is_guarded());
+    let computed = [
+        ("GUM", found.gum.as_ref().and_then(Gum::interval)),
+        ("MC, symmetric", figures.map(|figures| figures.symmetric_interval)),
+        ("MC, shortest", figures.map(|figures| figures.shortest_interval)),
+    ];
+    let limits = [
+        ("tolerance", conformity.map(|of| of.tolerance.ends()), true),
+        ("acceptance", guarded.and_then(|of| of.acceptance).map(|of| of.ends()), false),
+    ];
+    let computed = computed.map(|(name, ends)| (name, ends, false));
+    computed
+        .into_iter()
+        .chain(limits)
+        .filter_map(|(name, ends, is_stated)| Some(IntervalLine { name, ends: ends?, is_stated }))
+        .collect()
+}
+
+/// The histogram of an output as lines of at most 100 columns: bars, an axis with its marks, and below
+/// them the coverage intervals of both methods, the tolerance and the limits of acceptance.
 pub(super) fn histogram(output: &Quantity, found: &OutputEvaluation, counts: &Histogram) -> String {
     let counts = &narrowed(counts);
     let about = Quantity { about: String::new(), ..output.clone() };
     let title = format!("{}: {} trials", title_text(&about), grouped(counts.trials()));
     let width = counts.counts.len();
-    let gum = found.gum.as_ref().and_then(Gum::interval);
-    let figures = found.monte_carlo.as_ref();
-    let intervals: Vec<(&str, [f64; 2])> = [
-        ("GUM", gum),
-        ("MC, symmetric", figures.map(|figures| figures.symmetric_interval)),
-        ("MC, shortest", figures.map(|figures| figures.shortest_interval)),
-    ]
-    .into_iter()
-    .filter_map(|(name, interval)| Some((name, interval?)))
-    .collect();
+    let intervals = intervals(found);
     let mut grid = CharacterGrid::new(LEFT + width, HEIGHT + 2 + intervals.len());
     let most = counts.counts.iter().copied().max().unwrap_or(0).max(1);
     for (bar, count) in counts.counts.iter().enumerate() {
@@ -49,27 +71,29 @@ pub(super) fn histogram(output: &Quantity, found: &OutputEvaluation, counts: &Hi
         grid.bar(LEFT + bar, HEIGHT - 1, eighths as usize);
     }
     marks(&mut grid, counts, width);
-    for (row, (name, interval)) in (HEIGHT + 2..).zip(&intervals) {
+    for (row, interval) in (HEIGHT + 2..).zip(&intervals) {
         let name_width = LEFT - 2;
-        grid.write(0, row, &format!("{name:>name_width$}"));
-        line(&mut grid, (counts, width), row, *interval);
+        grid.write(0, row, &format!("{:>name_width$}", interval.name));
+        line(&mut grid, (counts, width), row, interval);
     }
     wrapped(&title) + &grid.lines()
 }
 
-/// An interval: a bracket at each end that lies among the bars, an arrow with its number for each that
-/// lies beyond them.
+/// An interval: a bracket at each end that lies among the bars, an arrow with its number for each
+/// finite one that lies beyond them.
 fn line(
     grid: &mut CharacterGrid,
     (counts, width): (&Histogram, usize),
     row: usize,
-    ends: [f64; 2],
+    interval: &IntervalLine,
 ) {
+    let ends = interval.ends;
     let [first, last] = [counts.low, counts.high()];
-    let place = position(ends[1] - ends[0], 3);
+    let place = position((ends[1] - ends[0]).min(last - first), 3);
+    let number = |end: f64| if interval.is_stated { exact(end) } else { to(end, place) };
     let beyond = |is_beyond: &dyn Fn(f64) -> bool| {
-        let numbers = ends.into_iter().filter(|end| is_beyond(*end)).map(|end| to(end, place));
-        numbers.collect::<Vec<_>>().join(" … ")
+        let finite = ends.into_iter().filter(|end| end.is_finite() && is_beyond(*end));
+        finite.map(number).collect::<Vec<_>>().join(" … ")
     };
     let [left, right] = [beyond(&|end| end < first), beyond(&|end| end > last)];
     if ends[0] <= last && ends[1] >= first {

@@ -4,6 +4,7 @@ mod foot;
 mod interactive;
 mod mathml;
 mod raised;
+mod standalone;
 mod table;
 
 pub use interactive::{interactive, interactive_script_digest};
@@ -11,6 +12,7 @@ pub(super) use raised::raised;
 pub(super) use table::table;
 
 use super::document::Foot;
+use super::printed::{Notation, in_print, notation};
 use maud::{DOCTYPE, Markup, PreEscaped, html};
 
 /// The style of pages, in light and dark mode and on A4.
@@ -50,7 +52,24 @@ pub(super) struct Drawing {
 impl Drawing {
     /// A figure for which `draw` returns an `svg` element with a width in pixels.
     pub(super) fn new(caption: String, draw: impl Fn(f64) -> String) -> Self {
-        Self { pictures: WIDTHS.map(|(_, width)| draw(width)), caption }
+        // figures have the notation of print also where the page has that of files
+        let notation = match notation() {
+            Notation::File => Notation::Print,
+            other => other,
+        };
+        let pictures = in_print(notation, || WIDTHS.map(|(_, width)| draw(width)));
+        Self { pictures, caption }
+    }
+
+    /// Its caption.
+    pub(super) fn caption(&self) -> &str {
+        &self.caption
+    }
+
+    /// The figure for a page as an SVG file that needs nothing else.
+    pub(super) fn standalone(&self) -> String {
+        let [wide, _] = &self.pictures;
+        standalone::standalone(wide, &self.caption)
     }
 }
 

@@ -1,14 +1,19 @@
 //! Plots of the output's uncertainty against each input, and against time.
 
 use gumption_engine::number::{largest_first, smallest_first};
-use plotters::element::{Circle, PathElement};
+use plotters::element::{Circle, EmptyElement, PathElement, Text};
 use plotters::style::Color;
+use plotters::style::text_anchor::{HPos, Pos, VPos};
 
 use super::PlanReport;
 use crate::html::Drawing;
 use crate::plain;
-use crate::plot::{AFTER, Area, Axis, BEFORE, Drawn, INK, Panel, px, stroke, svg};
+use crate::plot::{
+    AFTER, Area, Axis, BEFORE, Drawn, FONT, INK, Panel, dashed, px, stroke, svg, text_style,
+};
+use crate::table::unit_text;
 use gumption_analysis::plan::{InputNeed, PlannedInterval};
+use gumption_units::Unit;
 
 /// Height of a panel in pixels.
 const TALL: f64 = 190.0;
@@ -43,9 +48,8 @@ pub(super) fn inputs(report: &PlanReport<'_>) -> Option<Drawing> {
         return None;
     }
     let label = |need: &InputNeed| {
-        let unit = report.unit(need.variable).trim();
-        let name = format!("u({})", plain(report.name(need.variable)));
-        if matches!(unit, "" | "1") { name } else { format!("{name} in {}", plain(unit)) }
+        let unit = report.task.variables.get(need.variable).map(|variable| &variable.unit);
+        labelled(format!("u({})", plain(report.name(need.variable))), unit)
     };
     let curves: Vec<Curve<'_>> = shown
         .iter()
@@ -65,9 +69,9 @@ pub(super) fn inputs(report: &PlanReport<'_>) -> Option<Drawing> {
     };
     let caption = format!(
         "{} against the standard uncertainty of each input while the others stay as they are (without \
-         a change of degrees of freedom), with the target as a line. Vermilion: as it is; blue: where \
-         the target begins to hold.",
-        report.kind()
+         a change of degrees of freedom). {}",
+        report.kind(),
+        legend(&curves, ["as it is", "where the target begins to hold"])
     );
     Some(Drawing::new(caption, drawn))
 }
@@ -82,12 +86,37 @@ pub(super) fn interval(report: &PlanReport<'_>, found: &PlannedInterval) -> Opti
     let marks = [Some(found.drift.stated), found.longest];
     let curve = Curve { points: &found.curve, label, marks };
     let drawn = |width: f64| svg(width, 1.2 * TALL, |area| panel(report, area, &curve));
+    let marks = ["the time for which the drift is stated", "the longest interval"];
     let caption = format!(
-        "{} against the time since the calibration, with the target as a line. Vermilion: the time \
-         for which the drift is stated; blue: the longest interval.",
-        report.kind()
+        "{} against the time since the calibration. {}",
+        report.kind(),
+        legend(std::slice::from_ref(&curve), marks)
     );
     Some(Drawing::new(caption, drawn))
+}
+
+/// A name with the unit of its axis.
+fn labelled(name: String, unit: Option<&Unit>) -> String {
+    match unit.filter(|unit| unit.has_name()) {
+        Some(unit) => format!("{name} in {}", unit_text(unit)),
+        None => name,
+    }
+}
+
+/// The meaning of the dots that are drawn, by their colours.
+fn legend(curves: &[Curve<'_>], meanings: [&str; 2]) -> String {
+    let is_drawn = |place: usize| {
+        curves
+            .iter()
+            .any(|curve| curve.marks[place].is_some_and(|mark| curve.point(mark).is_some()))
+    };
+    let dots = ["vermilion dot", "blue dot"].into_iter().zip(meanings).enumerate();
+    let drawn = dots.filter(|(place, _)| is_drawn(*place));
+    let parts: Vec<String> = drawn.map(|(_, (dot, meaning))| format!("{dot}: {meaning}")).collect();
+    if parts.is_empty() {
+        return "Dashed line: the target.".to_owned();
+    }
+    format!("Dashed line: the target; {}.", parts.join("; "))
 }
 
 fn panel(report: &PlanReport<'_>, area: &Area<'_>, curve: &Curve<'_>) -> Drawn {
@@ -95,31 +124,41 @@ fn panel(report: &PlanReport<'_>, area: &Area<'_>, curve: &Curve<'_>) -> Drawn {
     let end = curve.points.iter().map(|point| point.0).fold(0.0, f64::max);
     let top = curve.points.iter().map(|point| point.1).fold(target, f64::max);
     let (x, y) = (Axis::linear(0.0, end), Axis::linear(0.0, 1.08 * top));
-    let output = report.output().map_or("", |output| output.name.as_str());
+    let output = report.output();
+    let name = plain(output.map_or("", |output| output.name.as_str()));
+    let unit = output.map(|output| output.unit.of_differences());
     let panel = Panel {
         x: (&x, curve.label.clone()),
-        y: (&y, format!("{}({})", report.kind(), plain(output))),
+        y: (&y, labelled(format!("{}({name})", report.kind()), unit.as_ref())),
         marks: [6, 5],
         title: String::new(),
     };
     let chart = panel.draw(area)?;
     let inside = chart.plotting_area();
-    inside.draw(&PathElement::new(vec![(0.0, target), (end, target)], stroke(INK, 1.0)))?;
-    inside.draw(&PathElement::new(curve.points.to_vec(), stroke(AFTER, 1.75)))?;
-    for (mark, colour) in curve.marks.into_iter().zip([BEFORE, AFTER]) {
-        let at = mark.filter(|mark| *mark <= end).and_then(|mark| Some((mark, at(curve, mark)?)));
-        if let Some(point) = at {
-            inside.draw(&Circle::new(point, px(4.0), colour.filled()))?;
+    inside.draw(&PathElement::new(curve.points.to_vec(), stroke(INK, 1.5)))?;
+    inside.draw(&dashed(vec![(0.0, target), (end, target)], stroke(INK, 1.0)))?;
+    // the first dot is larger, so that both are seen where they agree
+    for (mark, (colour, size)) in curve.marks.into_iter().zip([(BEFORE, 5.0), (AFTER, 3.25)]) {
+        if let Some(point) = mark.and_then(|mark| curve.point(mark)) {
+            inside.draw(&Circle::new(point, px(size), colour.filled()))?;
         }
     }
-    Ok(())
+    // its name is above the line, at the end where the curve is farther from it
+    let height = |point: Option<&(f64, f64)>| point.map_or(0.0, |point| (point.1 - target).abs());
+    let is_left = height(curve.points.first()) > height(curve.points.last());
+    let (x, side, inwards) =
+        if is_left { (0.0, HPos::Left, px(4.0)) } else { (end, HPos::Right, -px(4.0)) };
+    let style = text_style(FONT - 1.0, INK, false).pos(Pos::new(side, VPos::Bottom));
+    inside.draw(&(EmptyElement::at((x, target)) + Text::new("target", (inwards, -px(2.0)), style)))
 }
 
-/// The height of a curve at x, interpolated between its points.
-fn at(curve: &Curve<'_>, x: f64) -> Option<f64> {
-    let after = curve.points.iter().position(|point| point.0 >= x)?;
-    let (right, left) = (curve.points[after], curve.points[after.saturating_sub(1)]);
-    let width = right.0 - left.0;
-    let share = if width > 0.0 { (x - left.0) / width } else { 1.0 };
-    Some(left.1 + share * (right.1 - left.1))
+impl Curve<'_> {
+    /// The point at x, interpolated between those of the curve; `None` beyond its end.
+    fn point(&self, x: f64) -> Option<(f64, f64)> {
+        let after = self.points.iter().position(|point| point.0 >= x)?;
+        let (right, left) = (self.points[after], self.points[after.saturating_sub(1)]);
+        let width = right.0 - left.0;
+        let share = if width > 0.0 { (x - left.0) / width } else { 1.0 };
+        Some((x, left.1 + share * (right.1 - left.1)))
+    }
 }

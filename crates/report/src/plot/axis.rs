@@ -150,12 +150,18 @@ fn steps(ends: [f64; 2], most: usize) -> Vec<(f64, String)> {
     });
     let step = digit * 10_f64.powi(power);
     let (first, last) = ((ends[0] / step).ceil() as i64, (ends[1] / step).floor() as i64);
-    (first..=last)
-        .map(|count| {
-            let value = count as f64 * step;
-            (value, rounded(value, power))
-        })
-        .collect()
+    let values = || (first..=last).map(|count| count as f64 * step);
+    let texts: Vec<String> = values().map(|value| rounded(value, power)).collect();
+    // numbers of one axis have one exponent
+    let has_exponents = texts.iter().any(|text| text.contains('e'));
+    let with_exponent = |count: i64| match count * digit as i64 {
+        0 => "0".to_owned(),
+        multiple => format!("{multiple}e{power}"),
+    };
+    match has_exponents {
+        true => values().zip((first..=last).map(with_exponent)).collect(),
+        false => values().zip(texts).collect(),
+    }
 }
 
 #[cfg(test)]
@@ -171,6 +177,7 @@ mod tests {
         assert_eq!(texts(&Axis::linear(-0.31, 0.31), 5), ["-0.2", "0.0", "0.2"]);
         assert_eq!(texts(&Axis::linear(35.0, 91.0), 6), ["40", "50", "60", "70", "80", "90"]);
         assert_eq!(texts(&Axis::linear(0.0, 3.1e6), 4), ["0", "1000000", "2000000", "3000000"]);
+        assert_eq!(texts(&Axis::linear(0.0, 1.6e-5), 4), ["0", "5e-6", "10e-6", "15e-6"]);
     }
 
     #[test]

@@ -15,8 +15,10 @@ pub(super) use groups::Groups;
 pub(super) use ink::{AFTER, BEFORE, EVEN, FAINT, INK, SHADES, WEAK};
 pub(super) use marks::{Fill, mark};
 pub(super) use panel::{Chart, Panel};
-pub(super) use strip::{CHROME, STRIP_AXIS, Strip, WIDER, centred, faded, line, stroke};
+pub(super) use strip::{
+    CHROME, STRIP_AXIS, Strip, WIDER, axis_of_bars, centred, dashed, faded, line, stroke,
+};
 pub(super) use svg::{
     Anchor, Area, Drawn, FONT, Layer, Titles, Write, length, px, shortened, svg, svg_in_layers,
-    svg_with_titles, write,
+    svg_with_titles, text_style, write,
 };

@@ -1,6 +1,6 @@
 //! Rows of marks above one horizontal axis: bars and intervals with their names on the left.
 
-use plotters::element::PathElement;
+use plotters::element::{DashedPathElement, PathElement, Rectangle};
 use plotters::style::{Color, RGBColor, ShapeStyle};
 
 use super::axis::Axis;
@@ -81,6 +81,25 @@ impl<'a> Strip<'a> {
         write(area, text, Write { anchor: Anchor::Start, ..centred(at, FONT - 1.0) })
     }
 
+    /// A text to the left of a value.
+    pub(crate) fn before(&self, area: &Area<'_>, text: &str, value: f64, y: f64) -> Drawn {
+        let at = (self.x(value) - 7.0, y);
+        write(area, text, Write { anchor: Anchor::End, ..centred(at, FONT - 1.0) })
+    }
+
+    /// A bar from one value to another.
+    pub(crate) fn bar(
+        &self,
+        area: &Area<'_>,
+        ends: [f64; 2],
+        y: f64,
+        (height, colour): (f64, RGBColor),
+    ) -> Drawn {
+        let [from, to] = [ends[0].min(ends[1]), ends[0].max(ends[1])].map(|end| self.x(end));
+        let corners = [(px(from), px(y - 0.5 * height)), (px(to), px(y + 0.5 * height))];
+        area.draw(&Rectangle::new(corners, colour.filled()))
+    }
+
     /// Whether a value lies on the axis.
     pub(crate) fn holds(&self, value: f64) -> bool {
         let [first, last] = self.axis.ends();
@@ -131,6 +150,19 @@ impl<'a> Strip<'a> {
     }
 }
 
+/// A linear axis for bars between two values, with space in pixels beyond each end, in a figure with
+/// this width and space for names on the left ([`Strip::within`]).
+pub(crate) fn axis_of_bars(
+    [least, most]: [f64; 2],
+    (width, [left, right]): (f64, [f64; 2]),
+    room: [f64; 2],
+) -> Axis {
+    let give = (CHROME * width / (left + right)).min(1.0);
+    let bars = (width - give * (left + right) - room[0] - room[1]).max(1.0);
+    let unit = (most - least) / bars;
+    Axis::linear(least - room[0] * unit, most + room[1] * unit)
+}
+
 /// The number of tick marks that fit on a length in pixels.
 pub(crate) fn marks_within(length: f64) -> usize {
     ((length / MARK_ROOM) as usize).max(2)
@@ -149,6 +181,18 @@ pub(crate) fn stroke(colour: RGBColor, width: f64) -> ShapeStyle {
 /// A line with a faded colour and a width in pixels.
 pub(crate) fn faded(colour: RGBColor, share: f64, width: f64) -> ShapeStyle {
     colour.mix(share).stroke_width(px(width).unsigned_abs())
+}
+
+/// Lengths of the dashes and of the gaps of a dashed line, in pixels.
+const DASH: f64 = 7.0;
+const GAP: f64 = 4.0;
+
+/// A dashed line through positions in the coordinates of an area.
+pub(crate) fn dashed<X: Clone, Y: Clone>(
+    places: Vec<(X, Y)>,
+    style: ShapeStyle,
+) -> DashedPathElement<std::vec::IntoIter<(X, Y)>, i32> {
+    DashedPathElement::new(places, px(DASH), px(GAP), style)
 }
 
 /// A line through positions in pixels.

@@ -6,7 +6,7 @@ use plotters::style::Color;
 
 use crate::html::Drawing;
 use crate::plain;
-use crate::plot::{AFTER, Axis, BEFORE, Panel, WEAK, px, stroke, svg};
+use crate::plot::{AFTER, Axis, BEFORE, Panel, WEAK, dashed, px, stroke, svg};
 use gumption_engine::number::elementary::sin_cos_turn;
 use gumption_engine::propagate::{JointRegion, RegionEvaluation};
 use gumption_engine::task::Task;
@@ -28,14 +28,16 @@ pub(super) fn draw(task: &Task, region: &RegionEvaluation) -> Option<Drawing> {
         Some([x, y]) => x.iter().copied().zip(y.iter().copied()).collect(),
         _ => Vec::new(),
     };
-    let outlines: Vec<Outline> =
-        [region.gum.as_ref().map(|gum| (gum, BEFORE)), found.map(|found| (&found.region, AFTER))]
-            .into_iter()
-            .flatten()
-            .filter_map(|(of, colour)| {
-                Some(Outline { ellipse: ellipse(of)?, corners: corners(of), colour })
-            })
-            .collect();
+    // the dashed one is above, so that both are seen where they agree
+    let of_trials = found.map(|found| (&found.region, false, AFTER));
+    let of_law = region.gum.as_ref().map(|gum| (gum, true, BEFORE));
+    let outlines: Vec<Outline> = [of_trials, of_law]
+        .into_iter()
+        .flatten()
+        .filter_map(|(of, is_dashed, colour)| {
+            Some(Outline { ellipse: ellipse(of)?, corners: corners(of), is_dashed, colour })
+        })
+        .collect();
     if outlines.is_empty() {
         return None;
     }
@@ -59,16 +61,21 @@ pub(super) fn draw(task: &Task, region: &RegionEvaluation) -> Option<Drawing> {
             for place in &sample {
                 chart.draw(&Circle::new(*place, px(1.0), WEAK.mix(0.5).filled()))?;
             }
-            for Outline { ellipse, corners, colour } in &outlines {
-                chart.draw(&PathElement::new(ellipse.clone(), stroke(*colour, 2.0)))?;
-                chart.draw(&PathElement::new(corners.clone(), stroke(*colour, 1.0)))?;
+            for Outline { ellipse, corners, is_dashed, colour } in &outlines {
+                for (path, width) in [(ellipse, 2.0), (corners, 1.0)] {
+                    let style = stroke(*colour, width);
+                    match is_dashed {
+                        true => chart.draw(&dashed(path.clone(), style))?,
+                        false => chart.draw(&PathElement::new(path.clone(), style))?,
+                    }
+                }
             }
             Ok(())
         })
     };
     let trials = if sample.is_empty() { "" } else { " Dots are some of the trials." };
     let caption = format!(
-        "Coverage ellipse and box by the law of propagation (vermilion) and from the trials (blue).{trials}"
+        "Coverage ellipse and box by the law of propagation (vermilion, dashed) and from the trials (blue).{trials}"
     );
     Some(Drawing::new(caption, drawn))
 }
@@ -76,6 +83,7 @@ pub(super) fn draw(task: &Task, region: &RegionEvaluation) -> Option<Drawing> {
 struct Outline {
     ellipse: Vec<(f64, f64)>,
     corners: Vec<(f64, f64)>,
+    is_dashed: bool,
     colour: plotters::style::RGBColor,
 }
 

@@ -26,6 +26,7 @@ fn pages(case: &Case, columns: &[BudgetColumn]) -> [(&'static str, String, Rows)
     let settled = convergence(&case.task, &case.evaluation, 0, &Control::default()).unwrap();
     let settled = settled.unwrap_or_default();
     let shown = Shown {
+        trials: &[],
         extent: Extent::default(),
         columns,
         histograms: &histograms,

@@ -168,7 +168,7 @@ fn correlations_and_coverage() {
     assert_complete(output);
     let part = output.parts.last().unwrap();
     assert_eq!((part.due.clone(), part.share), (ChangeCause::Correlations, Some(1.0)));
-    assert_eq!(difference.changes, [r#"`correlations` added: [["b","a",0.5]]"#]);
+    assert_eq!(difference.changes, ["`correlations` added: (b, a, 0.5)"]);
 
     let second = model(&given, "a+b", r#", "coverage_probability": 0.99"#);
     let difference = compare(&first, &second);
@@ -303,4 +303,28 @@ fn changed_evidence_is_named() {
     );
     assert!(said(&plain, &stated).starts_with("evidence of `a` added"));
     assert!(said(&stated, &changed).starts_with("evidence of `a`: from"));
+}
+
+/// Keys of an output are named one by one, in words.
+#[test]
+fn changed_keys_of_an_output_are_in_words() {
+    let with = |output: &str| {
+        read(&format!(
+            r#"{{"inputs": {{"a": {{"distribution": "normal", "mean": 1, "std": 0.1, "unit": "V"}}}},
+                "equations": {{"R": "2*a"}}, "outputs": {{"R": {{"unit": "V"{output}}}}}}}"#
+        ))
+    };
+    let limits = with(r#", "tolerance": {"lower": 99, "upper": 101}"#);
+    let other = with(r#", "tolerance": {"upper": "1 kV", "risk": 0.05}, "about": "sum""#);
+    assert_eq!(
+        compare(&with(""), &limits).changes,
+        ["output `R`: tolerance added: from 99 to 101 V"]
+    );
+    assert_eq!(
+        compare(&limits, &other).changes,
+        [
+            "output `R`: tolerance changed: from 99 to 101 V; now at most 1 kV, risk 0.05",
+            "output `R`: about added: \"sum\""
+        ]
+    );
 }

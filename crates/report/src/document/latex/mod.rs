@@ -5,6 +5,7 @@ mod equation;
 mod text;
 pub(super) mod unit;
 
+use super::beside::{FigureBeside, beside};
 use super::{Block, Document, FootPart, Head};
 use crate::sheet::{ColumnKind, Sheet, SheetColumn};
 use gumption_analysis::certificate::contents::{Picture, PictureFormat};
@@ -61,7 +62,7 @@ pub(crate) fn latex(document: &Document) -> String {
         "\\usepackage[margin=18mm]{geometry}".to_owned(),
         "\\usepackage{array,longtable,booktabs,siunitx}".to_owned(),
     ];
-    if document.head.is_some() {
+    if document.head.is_some() || body.iter().any(|part| part.contains(INCLUDED)) {
         parts.push("\\usepackage{graphicx}".to_owned());
     }
     parts.extend(units.lines());
@@ -151,7 +152,8 @@ fn block(block: &Block, units: &mut unit::Declared) -> String {
             format!("\\begin{{itemize}}\n{}\n\\end{{itemize}}", items.join("\n"))
         }
         Block::Table(sheet) => table(sheet, units),
-        Block::Figure(_) | Block::Characters(_) => String::new(),
+        Block::Figure(drawing) => beside(drawing).map_or_else(String::new, |of| figure(&of)),
+        Block::Characters(_) => String::new(),
         Block::Folded(title, blocks) => {
             let blocks: Vec<String> = blocks.iter().map(|part| self::block(part, units)).collect();
             format!("{}:\n\n{}", escaped(title), blocks.join("\n\n"))
@@ -180,6 +182,20 @@ fn listed(line: &str) -> String {
     let text = line.trim_start();
     let spaces = line.chars().count() - text.chars().count();
     format!("\\hspace*{{{}em}}{}\\strut", 0.5 * spaces as f64, escaped(text))
+}
+
+/// How LaTeX includes a picture.
+const INCLUDED: &str = "\\includegraphics";
+
+/// A figure above its caption, on one page. It does not float, so that it stays in its section.
+fn figure(of: &FigureBeside<'_>) -> String {
+    let FigureBeside { number, name, caption } = of;
+    let caption = escaped(caption);
+    format!(
+        "\\medskip\n\\noindent\\begin{{minipage}}{{\\linewidth}}\n\
+         {INCLUDED}[width=\\linewidth]{{{name}}}\n\n\
+         \\small \\textbf{{Figure {number}.}} {caption}\n\\end{{minipage}}\n\\medskip"
+    )
 }
 
 fn table(sheet: &Sheet, units: &mut unit::Declared) -> String {

@@ -3,12 +3,15 @@
 mod convergence;
 mod distribution;
 mod inputs;
+mod scatter;
 mod shares;
 mod sweep;
 
 pub(super) use convergence::convergence;
 pub(super) use distribution::distribution;
 pub(super) use inputs::{inputs, picture};
+pub(super) use scatter::scatter;
+pub use scatter::trials_of_pairs;
 pub(super) use shares::shares;
 pub(super) use sweep::sweep;
 

@@ -1,13 +1,11 @@
 //! The shares of the variance as bars.
 
 use gumption_engine::number::largest_first;
-use plotters::element::Rectangle;
-use plotters::style::Color;
 
 use crate::html::Drawing;
 use crate::number::rounded;
 use crate::plain;
-use crate::plot::{AFTER, Axis, EVEN, INK, STRIP_AXIS, Strip, line, px, stroke, svg};
+use crate::plot::{AFTER, Axis, EVEN, INK, STRIP_AXIS, Strip, line, stroke, svg};
 use gumption_engine::propagate::gum::Gum;
 use gumption_engine::task::Task;
 
@@ -49,10 +47,8 @@ pub(in crate::evaluation) fn shares(task: &Task, gum: &Gum) -> Option<Drawing> {
             for (row, (name, share, coefficient)) in bars.iter().enumerate() {
                 let y = 4.0 + ROW * (row as f64 + 0.5);
                 let percent = 100.0 * share;
-                let (from, to) = (strip.x(percent.min(0.0)), strip.x(percent.max(0.0)));
-                let corners = [(px(from), px(y - 0.5 * BAR)), (px(to), px(y + 0.5 * BAR))];
                 let colour = if *coefficient { EVEN } else { AFTER };
-                area.draw(&Rectangle::new(corners, colour.filled()))?;
+                strip.bar(area, [0.0, percent], y, (BAR, colour))?;
                 strip.name(area, name, y)?;
                 strip.beside(area, &rounded(percent, -1), percent.max(0.0), y)?;
             }

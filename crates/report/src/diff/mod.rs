@@ -1,5 +1,7 @@
 //! Two compared files in the formats of the answer.
 
+mod figure;
+
 use serde::Serialize;
 
 use crate::answer::{in_order, pretty};
@@ -10,10 +12,12 @@ use crate::number::{
 };
 use crate::printed::on_terminal;
 use crate::sheet::Sheet;
+use crate::table::unit_text;
 use crate::{Grid, plain, table::width, wrapped};
 use gumption_analysis::diff::{
     ByTrials, ChangeCause, ChangePart, Difference, InputState, OutputDifference, RowDifference,
 };
+use gumption_units::Unit;
 
 /// Significant digits of uncertainties.
 const DIGITS: u32 = 2;
@@ -171,7 +175,10 @@ fn paper([a, b]: [&str; 2], difference: &Difference) -> Document {
                 paper.text(said);
             }
             match changes(output) {
-                Some(sheet) => paper.table(sheet),
+                Some(sheet) => {
+                    paper.figure(figure::waterfall(output));
+                    paper.table(sheet);
+                }
                 None => paper.text(NONE_CHANGED),
             }
             if is_not_shared_out(output) {
@@ -246,16 +253,14 @@ fn changes(output: &OutputDifference) -> Option<Sheet> {
     let share =
         |part: &ChangePart| part.share.map_or_else(missing, |share| rounded(100.0 * share, -1));
     let mut sheet = Sheet::default();
-    sheet.text(
-        "what changed",
-        changed().map(|part| match due(part) {
-            (Some(name), _) => name.to_owned(),
-            (None, what) => what.unwrap_or("").to_owned(),
-        }),
-    );
+    sheet.text("what changed", changed().map(|part| cause(part).to_owned()));
     sheet.text("from", changed().map(|part| known(part, 0)));
     sheet.text("to", changed().map(|part| known(part, 1)));
-    sheet.numbers("change\nof U", changed().map(change));
+    let header = match unit_of(output).as_str() {
+        "" => "change\nof U".to_owned(),
+        unit => format!("change of\nU in {unit}"),
+    };
+    sheet.numbers(&header, changed().map(change));
     sheet.numbers("share\nin %", changed().map(share));
     Some(sheet)
 }
@@ -269,9 +274,19 @@ fn missing() -> String {
     MISSING.to_owned()
 }
 
-/// The unit behind a figure; nothing of plain numbers.
-fn unit_of(output: &OutputDifference) -> &str {
-    if matches!(output.unit.trim(), "" | "1") { "" } else { &output.unit }
+/// The unit behind a number; nothing of plain numbers.
+fn unit_of(output: &OutputDifference) -> String {
+    match Unit::parse(&output.unit) {
+        Ok(unit) if !unit.has_name() => String::new(),
+        Ok(unit) => unit_text(&unit.of_differences()),
+        Err(_) => plain(&output.unit),
+    }
+}
+
+/// The input, or what else a part of the change is due to.
+fn cause(part: &ChangePart) -> &str {
+    let (input, what) = due(part);
+    input.or(what).unwrap_or("")
 }
 
 /// A change in per cent, in brackets; nothing where it is none of a number above zero.
