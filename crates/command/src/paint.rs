@@ -72,7 +72,7 @@ const VERDICTS: [(&str, &str); 9] = [
     ("Decision: accepted", GREEN),
     ("Decision: rejected", RED),
     ("undecided whether the GUM interval is validated", YELLOW),
-    ("  not valid", YELLOW),
+    ("  not validated", YELLOW),
     (" not compatible", RED),
     ("There is a gap", BOLD),
 ];
@@ -111,7 +111,7 @@ mod tests {
 
     #[test]
     fn titles_are_bold_and_verdicts_coloured() {
-        let page = "Title\nsettings\n\na_x in m\n════════\n\ninput  u\n────────\na      1\n\nThe GUM interval is not valid here: so.\n";
+        let page = "Title\nsettings\n\na_x in m\n════════\n\ninput  u\n────────\na      1\n\nThe GUM interval is not validated: so.\n";
         insta::assert_snapshot!(painted(page).replace('\u{1b}', "^"), @r"
         ^[1mTitle^[0m
         settings
@@ -123,7 +123,7 @@ mod tests {
         ────────
         a      1
 
-        The ^[33mGUM interval is not valid here^[0m: so.
+        The ^[33mGUM interval is not validated^[0m: so.
         ");
     }
 }

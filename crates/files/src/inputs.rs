@@ -295,8 +295,8 @@ impl<'a> InputReader<'a, '_> {
             let diagnostic = DiagnosticKind::WrongType {
                 what: format!("`{key}`"),
                 found: "a value with its uncertainty",
-                expected: "the estimate alone; as the whole input, in place of the braces, such a \
-                           text is a value and its uncertainty",
+                expected: "the estimate alone; write the text instead of the whole object, as in \
+                           `\"V\": \"5.0112(23) V\"`",
             };
             log.report(&member.value.span, diagnostic);
             return None;

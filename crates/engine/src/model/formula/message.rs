@@ -100,14 +100,14 @@ impl fmt::Display for FormulaError {
                 more(f, *hint, suggestion.as_deref())
             }
             Self::UnexpectedEnd { expected, opened, .. } => {
-                write!(f, "the formula stops where {expected} should stand")?;
+                write!(f, "the formula ends where {expected} is expected")?;
                 match opened {
                     Some(_) => f.write_str("; a parenthesis is still open"),
                     None => Ok(()),
                 }
             }
             Self::UnexpectedToken { found, expected, hint, suggestion, .. } => {
-                write!(f, "`{found}` cannot stand here; expected {expected}")?;
+                write!(f, "`{found}` is not allowed here; expected {expected}")?;
                 more(f, hint.as_deref(), suggestion.as_deref())
             }
             Self::UnreadableNumber { text, fault, suggestion, .. } => {
@@ -139,7 +139,7 @@ impl fmt::Display for FormulaError {
                 match (nearest.is_empty(), known.is_empty()) {
                     (false, _) => write!(f, "; did you mean {}?", listed(nearest, " or ")),
                     (true, false) => write!(f, "; names here are {}", listed(known, " and ")),
-                    (true, true) => f.write_str(", nor is any other name here"),
+                    (true, true) => f.write_str("; no names are defined here"),
                 }
             }
             Self::DefinedLater { name, .. } => write!(
@@ -235,8 +235,8 @@ impl fmt::Display for FormulaError {
                         }
                         // a width that grows with the temperature, IEC 60751
                         (true, false) => f.write_str(
-                            ", or compute with numbers: those of degrees Celsius are `t/[degC]`, as in \
-                             `(0.3 + 0.005*t/[degC])*1 [K]`",
+                            ", or compute with numbers: the number of degrees Celsius is \
+                             `t/[degC]`, as in `(0.3 + 0.005*t/[degC])*1 [K]`",
                         )?,
                         _ => {}
                     }
@@ -276,7 +276,7 @@ impl fmt::Display for FormulaError {
                 write!(f, "`[{}]` is no unit: {error}", short(text))?;
                 match text.contains(['+', '-', '(']) {
                     true => {
-                        f.write_str(" (parts of a formula stand in parentheses, units in `[]`)")
+                        f.write_str(" (write parts of a formula in parentheses, units in `[]`)")
                     }
                     false => Ok(()),
                 }
@@ -286,8 +286,8 @@ impl fmt::Display for FormulaError {
             }
             Self::NumberWithUnit { number, unit, .. } => write!(
                 f,
-                "`{}` is {} already, and a unit in brackets stands behind a plain number; the \
-                 number of {unit} is `{}/[{unit}]`",
+                "`{}` is {} already, and a unit in brackets follows a plain number; the number of \
+                 {unit} is `{}/[{unit}]`",
                 number.text,
                 number.dimension.describe(),
                 number.text
@@ -320,8 +320,8 @@ impl fmt::Display for FormulaError {
             ),
             Self::TableOutOfPlace { file, .. } => write!(
                 f,
-                "the table of `{}` cannot be read here; a table stands in the equations of a model \
-                 file",
+                "the table of `{}` cannot be read here; tables are only in the equations of a \
+                 model file",
                 short(file)
             ),
             Self::TableArgument { argument, expected } => {
