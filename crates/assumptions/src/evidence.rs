@@ -106,7 +106,7 @@ impl EvidenceVerdict {
     /// The words of the answer.
     pub fn words(self) -> &'static str {
         match self {
-            Self::TooFew => "too few readings",
+            Self::TooFew => "too few readings to tell",
             Self::TooNarrow => "too narrow",
             Self::TooWide => "too wide",
             Self::WrongShape => "wrong shape",

@@ -41,9 +41,9 @@ pub(super) fn document(
         page.picture(|| html::overlay(diagnosis, output), in_characters);
     }
     effect(&mut page, diagnosis);
-    page.section("Test for a gap");
+    page.section("Is there a gap?");
     page.text(words::gap(diagnosis));
-    page.section("Location of the gap");
+    page.section("Where?");
     match sheets::regions(diagnosis) {
         Some(sheet) => {
             page.table(sheet);
@@ -92,7 +92,7 @@ pub(super) fn document(
         let in_characters = || terminal::residuals(diagnosis, output);
         page.picture(|| html::residuals(diagnosis, output), in_characters);
     }
-    page.section("Next step");
+    page.section("What to measure next");
     words::next(diagnosis).into_iter().for_each(|said| page.text(said));
     if let Some(sheet) = sheets::next(diagnosis) {
         page.table(sheet);

@@ -343,7 +343,7 @@ pub(super) fn noise_verdict(diagnosis: &Diagnosis) -> Vec<String> {
         }
         for suspect in noise.suspects.iter().filter(|suspect| suspect.probability > LIKELY) {
             said.push(format!(
-                "Row {} of {name} deviates by {} standard uncertainties (probability {}).",
+                "Row {} of {name} is off by {} standard uncertainties (probability {}).",
                 suspect.row + 1,
                 significant(suspect.size, 2),
                 probability(suspect.probability)
