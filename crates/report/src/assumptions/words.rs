@@ -8,8 +8,8 @@ use gumption_assumptions::{
 };
 use gumption_engine::number::largest_first;
 
-pub(super) const MOVES: &str = "Changes are changes of the half-length of the coverage interval, \
-    relative to the stated assumptions, with the same random numbers. Changes below 0.05 % or \
+pub(super) const MOVES: &str = "Changes are relative changes of the half-length of the coverage \
+    interval, with the same random numbers as for the stated assumptions. Changes below 0.05 % or \
     within twice their numerical standard error are shown as \"none\". \"Allowed\" is how wrong \
     the width may be before the half-length changes by more than the limit.";
 
