@@ -821,16 +821,16 @@ fn what_a_guarded_rule_rejects_may_lie_within_the_tolerance() {
     let not_shown = [
         (
             "en",
-            "It is not shown that the result conforms to the tolerance from -0.1 to 0.1 N m: it lies \
-            within the tolerance, but outside the acceptance limits, and is rejected by the decision \
-            rule. Specific risk that the value conforms all the same: 61.",
+            "It is not shown that the result conforms to the tolerance from -0.1 to 0.1 N m: it is \
+            within the tolerance, but outside the acceptance limits. The decision rule rejects it. \
+            Specific risk that the rejected value conforms: 61.",
             "does not conform",
         ),
         (
             "de",
-            "ist nicht nachgewiesen: Es liegt innerhalb der Toleranz, aber außerhalb der \
-            Annahmegrenzen, und wird nach der Entscheidungsregel zurückgewiesen. Spezifisches Risiko, \
-            dass der Wert dennoch konform ist: 61,",
+            "Es liegt innerhalb der Toleranz, aber außerhalb der Annahmegrenzen. Nach der \
+            Entscheidungsregel wird es zurückgewiesen. Spezifisches Risiko, dass der zurückgewiesene \
+            Wert konform ist: 61,",
             "nicht konform",
         ),
         ("it", "fuori dai limiti di accettazione", "non è conforme"),
@@ -844,7 +844,7 @@ fn what_a_guarded_rule_rejects_may_lie_within_the_tolerance() {
     }
     let (page, ..) = certificate(0.107, guarded(), json!("en"));
     let said = "The result does not conform to the tolerance from -0.1 to 0.1 N m. Specific risk that \
-                the value conforms all the same: 24.";
+                the rejected value conforms: 24.";
     assert!(page.contains(said), "{page}");
     let (page, ..) = certificate(2.0, guarded(), json!("en"));
     assert!(page.contains("conforms all the same: less than 0.01 %."), "{page}");

@@ -533,7 +533,7 @@ fn clauses_of_95_percent_are_cited_for_that_alone() {
     for settings in [json!({"coverage_factor": 2}), json!({"coverage_probability": 0.95})] {
         let said = of(settings);
         assert!(said.contains("guard band of 1 U (ILAC-G8:09/2019, 4.2.2), with U"), "{said}");
-        assert!(said.contains("of the capability") && !said.contains("brought from"), "{said}");
+        assert!(said.contains("of the capability") && !said.contains("converted from"), "{said}");
     }
     for (factor, width) in [(1, "0.00200 V"), (3, "0.00600 V")] {
         let said = of(json!({"coverage_factor": factor}));
@@ -541,7 +541,7 @@ fn clauses_of_95_percent_are_cited_for_that_alone() {
         let part = format!("(U having k = {factor}.00; ILAC-G8:09/2019, 4.2.2, has it for U of");
         assert!(said.contains(&part) && said.contains(width), "{said}");
         let part =
-            format!("brought from the coverage factor 2 of the capability to k = {factor}.00");
+            format!("converted from the coverage factor 2 of the capability to k = {factor}.00");
         assert!(said.contains(&part), "{said}");
     }
 }

@@ -237,7 +237,7 @@ fn a_u_that_is_not_valid_is_said_to_be_so() {
         let [a, b] = files.each_ref().map(|path| path.to_str().unwrap());
         let page = output(&["diff", a, b]);
         let page = page.split_whitespace().collect::<Vec<_>>().join(" ");
-        assert!(page.contains("This U is not valid in both files"), "{page}");
+        assert!(page.contains("U is not validated in either file"), "{page}");
         assert!(page.contains("by the law of propagation") && page.contains("(+0.0 %)"), "{page}");
         assert!(!page.contains("No input changed") && page.contains("phi"), "{page}");
     }

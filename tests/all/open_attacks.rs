@@ -316,7 +316,7 @@ fn a_trillion_trials_are_refused() {
         let begun = Instant::now();
         let reply = server.post(path, &wish);
         assert_eq!(reply.status, 422, "{}", reply.text());
-        assert!(reply.text().contains("the file asks for"), "{}", reply.text());
+        assert!(reply.text().contains("the file states"), "{}", reply.text());
         assert!(begun.elapsed() < Duration::from_secs(60));
     }
     let wish =

@@ -122,8 +122,8 @@ fn what_cannot_be_planned_is_said() {
     cost(r#"{"costs": {"a": {"offers": [{"standard_uncertainty": 1500, "cost": 15}]}}}"#);
     assert!(costs().contains(
         "U(y) is still 10 mm with every improvement that the file of costs has. The offer of 1500 \
-         mm for a (cost 15) is no better than what there is, \
-         3 mm, and helps nothing. Numbers without a unit are in mm"
+         mm for a (cost 15) is not better than the present value, \
+         3 mm. Numbers without a unit are in mm"
     ));
     cost(r#"{"costs": {"aa": {"cost": 1}}}"#);
     assert!(costs().contains("`aa`") && costs().contains("cost.json:1"));
@@ -211,7 +211,7 @@ fn an_offer_that_helps_nothing_is_named() {
     assert_eq!(found.status.code(), Some(0));
     let page = String::from_utf8(found.stdout).expect("text");
     let page = page.split_whitespace().collect::<Vec<_>>().join(" ");
-    assert_eq!(page.matches("is no better than what there is, 3 mm").count(), 1, "{page}");
+    assert_eq!(page.matches("is not better than the present value, 3 mm").count(), 1, "{page}");
     assert!(page.contains("The offer of 1500 mm for a (cost 15)"), "{page}");
 }
 

@@ -317,12 +317,12 @@ fn runs_of_another_case_and_damaged_runs_are_errors() {
 
     let mut other = case();
     other.parameters[1].name = "friction".to_owned();
-    let message = "their parameters are `length` and `drag`, those of the case are `length` and \
+    let message = "their parameters are `length` and `drag`, but the case has `length` and \
                    `friction`\n";
     assert_eq!(failure(other), format!("{start}{message}"));
     let mut other = case();
     other.outputs.truncate(1);
-    let message = "their outputs are `angle` and `gain`, those of the case are `angle`\n";
+    let message = "their outputs are `angle` and `gain`, but the case has `angle`\n";
     assert_eq!(failure(other), format!("{start}{message}"));
     let mut other = case();
     other.conditions[0].values[2] = 1.5;

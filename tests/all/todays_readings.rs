@@ -303,7 +303,7 @@ fn one_certificate_for_each_file() {
     let (code, answer, said) = place.ended(&each);
     assert_eq!((code, answer.as_str()), (2, ""));
     assert!(said.contains("devices/wrong.csv:1:1: "), "{said}");
-    assert!(said.contains("1 of 3 certificates are not made: `devices/wrong.csv`"), "{said}");
+    assert!(said.contains("1 of 3 certificates were not made: `devices/wrong.csv`"), "{said}");
     let mut made: Vec<String> = fs::read_dir(place.path().join("out"))
         .unwrap()
         .map(|entry| entry.unwrap().file_name().to_string_lossy().into_owned())

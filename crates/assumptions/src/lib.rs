@@ -150,11 +150,13 @@ impl VariantChange {
 }
 
 impl InputAudit {
-    /// The largest change due to another shape.
-    pub fn largest_change(&self) -> Option<f64> {
-        let seen = self.alternatives.iter().map(|other| &other.moved);
-        let seen = seen.filter(|moved| moved.is_seen()).filter_map(|moved| moved.change);
-        seen.max_by(|a, b| a.abs().total_cmp(&b.abs()))
+    /// The other shape with the largest significant change; `None` without one.
+    pub fn most_different(&self) -> Option<&Alternative> {
+        let seen = self.alternatives.iter().filter(|other| other.moved.is_seen());
+        seen.max_by(|a, b| {
+            let [a, b] = [a, b].map(|other| other.moved.change.unwrap_or(0.0).abs());
+            a.total_cmp(&b)
+        })
     }
 }
 

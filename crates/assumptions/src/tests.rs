@@ -85,7 +85,7 @@ fn widths_of_a_sum() {
     // all of it may be wrong
     assert_eq!(c.allowed.unwrap()[0], -1.0);
     assert!(c.alternatives.iter().all(|other| !other.moved.is_seen()), "{c:?}");
-    assert!(c.largest_change().is_none());
+    assert!(c.most_different().is_none());
 }
 
 /// The function of Ishigami and Homma with a = 7, b = 0.1, whose indices have closed forms

@@ -121,8 +121,8 @@ impl Certificate {
         if let Some(key) = file.certificate.administrative.without_readings() {
             let name = key.rsplit_once('.').map_or(key, |(_, name)| name);
             let reason = format!(
-                "`{name}` names the file of readings, and there is none; give one by `--readings` or \
-                 `--each`"
+                "`{name}` is the name of the file of readings, but there is none; give one by \
+                 `--readings` or `--each`"
             );
             let kind = DiagnosticKind::Certificate { reason };
             return Err(Failure::Diagnostics(file.diagnostic_at(key, kind)));

@@ -28,7 +28,7 @@ pub(crate) fn command(kind: &DiagnosticKind) -> &'static str {
         DiagnosticKind::Outside { .. } => "; `--allow-path DIR` allows another folder",
         DiagnosticKind::SavedChanged { .. } => ", or accept it with `--accept-changed`",
         DiagnosticKind::MissingKey { key: "observations", .. } => {
-            "; a model file without them is for `gumption run`"
+            "; `gumption run` evaluates a model file without them"
         }
         DiagnosticKind::NoModel => "; `gumption models` lists typed models",
         DiagnosticKind::UnknownModel { nearest: None, .. } => "; `gumption models` lists them",

@@ -207,21 +207,21 @@ impl Evaluated {
         let results = task.rows.len().saturating_mul(task.model.outputs.len());
         if format == Page::Xlsx && results > report::MOST_RESULTS {
             return Err(Failure::Argument(format!(
-                "there are {results} results, but a workbook takes at most {}; take \
-                 `--format csv`, or evaluate fewer rows of conditions",
+                "there are {results} results, but a workbook takes at most {}; use `--format \
+                 csv`, or evaluate fewer rows of conditions",
                 report::MOST_RESULTS
             )));
         }
         if !self.columns.is_empty() && matches!(format, Page::Json | Page::Csv | Page::Xlsx) {
             return refuse(
-                "`--columns` is of budgets on pages (`table`, `markdown`, `latex`, `html`); the workbook \
-                 and JSON have all columns, CSV has no budget",
+                "`--columns` is for budgets on pages (`table`, `markdown`, `latex`, `html`); the \
+                 workbook and JSON have all columns, CSV has no budget",
             );
         }
         if self.extent() != Extent::Usual && format != Page::Table {
             return refuse(
-                "`--brief` and `--full` are of the text page (`--format table`); the other formats \
-                 have everything",
+                "`--brief` and `--full` are for the text page (`--format table`); the other \
+                 formats have everything",
             );
         }
         if !self.histogram {
@@ -354,7 +354,7 @@ fn judgements(task: &Task, evaluation: &Evaluation) -> Vec<Judgement> {
                 .map(|conformity| if conformity.conforms { Verdict::Yes } else { Verdict::No });
             // without trials it is not determined
             if task.settings.trials != Trials::Fixed(0) {
-                all.push(judgement("is the GUM interval valid (clause 8)", valid));
+                all.push(judgement("is the GUM interval validated (clause 8)", valid));
             }
             if output.tolerance.is_some() {
                 all.push(judgement("does it conform", conforms));

@@ -138,8 +138,8 @@ impl CommandLine {
             _ => NotExported::Content(failure.to_string()),
         })?;
         if answered.exit == Exit::Interrupted {
-            let message = "it was stopped before it was done: it takes longer than the page waits; \
-                           use the command line, which has no limit";
+            let message = "it was stopped early: it takes longer than the page waits; use the \
+                           command line, which has no limit";
             return Err(NotExported::Stopped(message.to_owned()));
         }
         Ok(answered.answer)
@@ -189,7 +189,7 @@ impl CommandLine {
             return Ok(());
         }
         Err(NotExported::Content(format!(
-            "{name}: the file asks for {asked:.1e} trials, but the page makes at most {most:.0e}; \
+            "{name}: the file states {asked:.1e} trials, but the page makes at most {most:.0e}; \
              use fewer, or the command line",
             asked = asked as f64,
             most = MOST_TRIALS as f64,

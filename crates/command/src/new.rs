@@ -211,8 +211,8 @@ impl New {
 /// The message about a question without an answer.
 fn unanswered(question: &str) -> Failure {
     Failure::Argument(format!(
-        "\"{question}\" has no answer, so that no file is written; `gumption new --equation ...` takes \
-         the answers as options, and leaves blank what is not known"
+        "\"{question}\" has no answer, so that no file is written; `gumption new --equation ...` \
+         takes the answers as options, and leaves unknown values blank"
     ))
 }
 

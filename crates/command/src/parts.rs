@@ -141,9 +141,9 @@ impl PartsFolder {
     pub fn open(path: &Path) -> Result<Self, Failure> {
         if path.is_file() {
             return Err(Failure::Argument(format!(
-                "`{0}` is a file, but the parts of a run are in a folder, into which `gumption run \
-                 MODEL --blocks … --partial FILE` writes them; `gumption check {0}` says what the \
-                 file is",
+                "`{0}` is a file, but the parts of a run are in a folder, into which `gumption \
+                 run MODEL --blocks … --partial FILE` writes them; `gumption check {0}` describes \
+                 the file",
                 path.display()
             )));
         }

@@ -71,7 +71,7 @@ enum PlanFormat {
 fn law() -> impl TypedValueParser<Value = DriftLaw> {
     PossibleValuesParser::new(DriftLaw::ALL.map(DriftLaw::name)).try_map(|name| {
         let named = DriftLaw::ALL.into_iter().find(|law| law.name() == name);
-        named.ok_or("there is no such law")
+        named.ok_or("there is no law with this name")
     })
 }
 

@@ -1,5 +1,5 @@
-// Answers that follow the hand. A first answer comes from few trials, and as long as changes come in
-// only the newest one is asked about; when the hand rests the figures are refined.
+// Answers while somebody types. A first answer comes from few trials, and while changes come in only
+// the newest one is requested; after a pause the result is refined.
 
 const FEW = 100000;
 const REST = 250;

@@ -17,7 +17,7 @@ export default {
   use: "Als Eingangsgrößen hinzufügen:", report_as: "Als Ergebnis hinzufügen:", all: "alle", model_is: "Eingebautes Modell:",
   saved: "gespeichert", changed: "nicht gespeichert", changed_mistakes: "nicht gespeichert (die Datei enthält Fehler); Strg+S speichert trotzdem",
   unnamed: "neue Datei", saving: "wird gespeichert …", offline: "nur in diesem Browser",
-  trials: n => `${n} Monte-Carlo-Versuche`, refining: "; wird verfeinert …", done: "", stale: "Letztes gültiges Ergebnis:",
+  trials: n => `${n} Monte-Carlo-Versuche`, refining: "; wird verfeinert …", done: "", stale: "Letztes Ergebnis ohne Fehler:",
   cut: "; die Datei verlangt mehr Versuche, als diese Seite ausführt: gumption run verwenden",
   coverage: p => `Überdeckungswahrscheinlichkeit ${p} %`, interval: "Überdeckungsintervall",
   from_to: (a, b) => `${a} bis ${b}`, shortest: "kürzestes, Monte Carlo", symmetric: "symmetrisch, Monte Carlo",

@@ -8,7 +8,7 @@ async function start() {
   if (program) return;
   started ??= (async () => {
     const found = await fetch("gumption.wasm");
-    if (!found.ok) throw new Error("gumption.wasm is not there");
+    if (!found.ok) throw new Error("gumption.wasm is missing");
     const module = await WebAssembly.compile(await found.arrayBuffer());
     // what libraries bring for programs with scripts of their own; nothing of it is reached
     const imports = {};

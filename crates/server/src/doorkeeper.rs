@@ -85,8 +85,8 @@ impl Barred {
             Self::Origin => (StatusCode::FORBIDDEN, "this server answers its own pages alone"),
             Self::NoToken => (
                 StatusCode::UNAUTHORIZED,
-                "open the address that `gumption open` has printed, with its token; that of an \
-                 earlier start, or one that was used by the browser, is not taken again",
+                "open the address that `gumption open` printed, with its token; a token of an \
+                 earlier start, or a token that the browser has used, is not accepted again",
             ),
             Self::Header => (
                 StatusCode::FORBIDDEN,

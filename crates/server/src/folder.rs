@@ -64,7 +64,7 @@ impl OpenedFolder {
         }
         // a link stands for its file's own folder, whose other files the model may name
         let invalid = |message: &str| io::Error::new(ErrorKind::InvalidInput, message.to_owned());
-        let Some(own) = found.parent() else { return Err(invalid("it stands in no folder")) };
+        let Some(own) = found.parent() else { return Err(invalid("it is in no folder")) };
         let root = own.ancestors().find(|folder| folder.join(ROOT).is_file()).unwrap_or(own);
         let below = found.strip_prefix(root).unwrap_or(&found);
         let names: Option<Vec<&str>> = below.iter().map(|word| word.to_str()).collect();
@@ -161,7 +161,7 @@ pub(crate) fn words(asked: &str) -> Result<Vec<&str>, String> {
 fn name(word: &str) -> Result<(), String> {
     let refuse = |reason: &str| Err(format!("`{}` {reason}", word.escape_debug()));
     if word.is_empty() || word == "." || word == ".." {
-        return refuse("in a path is no name: it has to be relative, without `.` and `..`");
+        return refuse("in a path is not a name: the path must be relative, without `.` and `..`");
     }
     if word.chars().any(|c| c.is_control() || "\\:*?\"<>|".contains(c)) {
         return refuse("is no name: one of `\\ : * ? \" < > |` or a control character is in it");

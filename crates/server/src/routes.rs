@@ -113,7 +113,7 @@ impl IntoResponse for Undone {
             Self::Endless => (StatusCode::SERVICE_UNAVAILABLE, "it took too long and was stopped"),
             Self::Failed => (
                 StatusCode::INTERNAL_SERVER_ERROR,
-                "a fault of the program: please tell its makers how to come here",
+                "an error of the program: please report the steps that led to it",
             ),
         };
         refusal(status, message)

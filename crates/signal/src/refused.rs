@@ -168,8 +168,8 @@ impl<E: fmt::Display> fmt::Display for Refused<E> {
             ),
             Self::NotApart { samples, .. } => write!(
                 f,
-                "{samples} samples are too few, or too short a time, to tell the frequencies and \
-                 their multiples apart"
+                "{samples} samples are too few, or too short a time, to separate the frequencies \
+                 and their multiples"
             ),
             Self::NotFound { .. } => {
                 f.write_str("there is no oscillation whose frequency could be estimated")

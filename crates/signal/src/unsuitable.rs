@@ -96,7 +96,7 @@ impl fmt::Display for Unsuitable {
                 match periods / least {
                     0 | 1 if *least > 1 => out.write_str("; record more, or fit fewer harmonics"),
                     0 | 1 => out.write_str("; record more"),
-                    most => write!(out, "; ask for {most} segments at most"),
+                    most => write!(out, "; use at most {most} segments"),
                 }
             }
             Self::NotFinite { sample } => write!(out, "value {sample} is not a finite number"),

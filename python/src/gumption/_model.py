@@ -28,7 +28,7 @@ class Model:
     _rust: _gumption.Model
     #: What computes the outputs in place of formulas.
     _function: BlockFunction | None
-    #: What is known about the inputs, where it was not a file that said it.
+    #: The distributions of the inputs, if no file stated them.
     _known: Mapping[str, Any] | None
     #: The function that the formulas are of, as it was when the model was made.
     _held: Held | None

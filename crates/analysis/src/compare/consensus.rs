@@ -191,19 +191,19 @@ fn iterated(results: &CorrelatedResults, everybody: &[usize]) -> Option<f64> {
 /// is wrong.
 pub fn recommended(all: &ReferenceValue) -> (Estimator, &'static str) {
     if all.is_consistent() {
-        let why = "take the weighted mean: the stated uncertainties explain the differences between \
-                   the results, so nothing needs to be added to them";
+        let why = "use the weighted mean: the stated uncertainties explain the differences \
+                   between the results, so nothing needs to be added to them";
         return (Estimator::WeightedMean, why);
     }
     if all.members.len() < 3 {
-        let why = "take Mandel-Paule with care: two results that disagree do not say which is wrong, \
-                   and a variance from two results is hardly known";
+        let why = "use Mandel-Paule with care: two results cannot show which of them is wrong, \
+                   and a variance from two results is very uncertain";
         return (Estimator::MandelPaule, why);
     }
-    let why = "take Mandel-Paule: the stated uncertainties do not explain the differences and no \
-               result is known to be wrong, so one variance between laboratories is added to all; \
-               the largest consistent subset is right only where a technical reason excludes the \
-               others, Birge's ratio only where all uncertainties are too small by one factor, and \
+    let why = "use Mandel-Paule: the stated uncertainties do not explain the differences and no \
+               result is known to be wrong, so one variance between laboratories is added to all. \
+               Use the largest consistent subset only if a technical reason excludes the others, \
+               and Birge's ratio only if all uncertainties are too small by one factor. \
                DerSimonian-Laird is the first step towards Mandel-Paule";
     (Estimator::MandelPaule, why)
 }

@@ -175,8 +175,8 @@ impl fmt::Display for Impossible {
             ),
             Self::Dependent { laboratory, .. } => write!(
                 f,
-                "the laboratories cannot be weighted: by the coefficients the result of \
-                 `{laboratory}` follows from those of the laboratories before it, so that the \
+                "the laboratories cannot be weighted: with these coefficients the result of \
+                 `{laboratory}` follows from the results of the laboratories before it, so the \
                  correlation matrix has no inverse"
             ),
         }

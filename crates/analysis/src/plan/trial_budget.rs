@@ -78,7 +78,7 @@ impl<'a> TrialBudget<'a> {
                 Plannable::Not("a parameter of a calibration function: plan the points of its fit")
             }
             Distribution::Readings(readings) if readings.together() > 1 => {
-                Plannable::Not("paired readings: their number is that of all of them")
+                Plannable::Not("paired readings: all have the same number")
             }
             Distribution::Readings(readings) => {
                 let count = readings.count();

@@ -103,7 +103,7 @@ impl Certificate {
             return Ok(Exit::Done);
         }
         let message = format!(
-            "{} of {} certificates are not made: {}",
+            "{} of {} certificates were not made: {}",
             failed.len(),
             named.len(),
             failed.join(", ")
@@ -124,9 +124,9 @@ impl Certificate {
             if let Some(stated) = stated.filter(|stated| !stated.contains(NAME_OF_READINGS)) {
                 let stated = plain(&stated);
                 return Err(Failure::Argument(format!(
-                    "`--each` makes several certificates, and `{key}` of all of them is `{stated}`; write \
-                     `{NAME_OF_READINGS}` where the name of the file of readings is to stand, such as \
-                     `{stated}-{NAME_OF_READINGS}`"
+                    "`--each` makes several certificates, and `{key}` of all of them is \
+                     `{stated}`; write `{NAME_OF_READINGS}` at the place of the name of the file \
+                     of readings, such as `{stated}-{NAME_OF_READINGS}`"
                 )));
             }
         }

@@ -43,7 +43,7 @@ pub(super) const GROUPS: [OptionGroup; 18] = [
         "predict",
     ]),
     common("Output", &[
-        "format", "output", "output-folder", "columns", "histogram",
+        "format", "output", "output-folder", "brief", "full", "columns", "histogram",
         "shown-digits", "interactive", "save", "samples", "dcc-version", "stylesheet", "rounding",
     ]),
     own("assumptions", "Limit", &["allow"]),

@@ -29,7 +29,7 @@ pub(super) fn page(listing: &EffectListing) -> String {
         let _ = writeln!(text, "{} ({})\n", effect.name, bench(&effect.bench));
         let _ = writeln!(text, "{}\n", wrapped(&effect.about));
         let mut parameters = plain_table();
-        parameters.set_header(["parameter", "unit", "prior", "what it is"]);
+        parameters.set_header(["parameter", "unit", "prior", "description"]);
         for parameter in &effect.parameters {
             parameters.add_row([
                 &parameter.name,
@@ -46,13 +46,14 @@ pub(super) fn page(listing: &EffectListing) -> String {
         let _ = writeln!(text, "\n{}\n", wrapped(&format!("Source: {}", effect.source)));
     }
     text.push_str(&wrapped(
-        "A case names the effects that it wants after its own: \"catalogue\": [\"lateral-mode\"]. Of \
-         several entries of one name that is taken which acts on most quantities of the sim, those of \
-         a bench before those of any. {amplitude} and {phase} stand for each observed output of that \
-         kind, {unit} for its unit. {condition} stands for each condition of which the order of the rows \
-         tells what the formula reads: the {direction} of its last change; its {previous} value, its \
-         {share} of its range and the time {since} it changed, as numbers up to 1, as {passed}, the time \
-         since the first row, is.",
+        "A case lists effects of the catalogue by name: \"catalogue\": [\"lateral-mode\"]. If \
+         several entries have one name, the entry that acts on most quantities of the sim is \
+         used, entries for a bench before entries for any bench. {amplitude} and {phase} stand \
+         for each observed output of that kind, {unit} for its unit. {condition} stands for each \
+         condition whose history is known from the order of the rows. The formula reads the \
+         {direction} of its last change, its {previous} value, its {share} of its range, the time \
+         {since} it changed, and {passed}, the time since the first row; the last four are \
+         numbers up to 1.",
     ));
     text.push_str("\n\n");
     let names = listing.names.iter().map(|(name, alternatives)| {

@@ -162,7 +162,7 @@ fn describe(entry: &CatalogueEntry) -> String {
     }
     let _ = writeln!(text, "{}\n", wrapped(&format!("Source: {}", declaration.source)));
     let mut inputs = plain_table();
-    inputs.set_header(["input", "unit", "default", "what it is"]);
+    inputs.set_header(["input", "unit", "default", "description"]);
     for input in declaration.inputs {
         let default = match input.default {
             None => "required".to_owned(),
@@ -174,7 +174,7 @@ fn describe(entry: &CatalogueEntry) -> String {
     }
     let _ = writeln!(text, "{}", render(&inputs));
     let mut outputs = plain_table();
-    outputs.set_header(["output", "unit", "equation", "what it is"]);
+    outputs.set_header(["output", "unit", "equation", "description"]);
     for output in declaration.outputs {
         let mut unit = unit(output.unit, entry.any_unit.contains(&output.name));
         if let Some(period) = output.period {

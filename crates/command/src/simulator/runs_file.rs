@@ -88,7 +88,7 @@ fn check(heading: &Value, case: &SimulatorCase) -> Result<(), String> {
             let kept = kept.map(|names| names.iter().filter_map(Value::as_str).collect::<Vec<_>>());
             let names: Vec<&str> = names.iter().map(String::as_str).collect();
             return Err(format!(
-                "its runs are of another case: their {key} are {}, those of the case are {}",
+                "its runs are of another case: their {key} are {}, but the case has {}",
                 shown(&kept.unwrap_or_default()),
                 shown(&names)
             ));

@@ -250,7 +250,7 @@ impl fmt::Display for Invalid {
             ),
             Self::NotOfDraws { parameter, stated, found } => write!(
                 f,
-                "{parameter} is {}, but that of the draws is {}; do both have the same parameters?",
+                "{parameter} is {}, but it is {} for the draws; do both have the same parameters?",
                 Shortest(*stated),
                 Shortest(*found)
             ),

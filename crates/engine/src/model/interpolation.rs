@@ -47,7 +47,7 @@ impl fmt::Display for TableFault {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
             Self::TooFew => f.write_str("a table needs at least two points"),
-            Self::Repeated(_) => f.write_str("the same abscissa stands there twice"),
+            Self::Repeated(_) => f.write_str("the same abscissa appears twice"),
             Self::Unsorted(_) => {
                 f.write_str("the abscissas neither rise nor fall all the way; sort the rows")
             }

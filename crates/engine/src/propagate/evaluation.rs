@@ -513,8 +513,8 @@ fn noiseless(problem: &exact::Problem<'_>, needed: bool) -> Option<Result<Box<No
         return Some(Err("the model's function is not recorded".to_owned()));
     }
     if problem.joint.undrawn {
-        let reason = "correlation coefficients of inputs that have no variance do not say how they vary \
-                      together";
+        let reason = "correlation coefficients of inputs without a variance do not determine \
+                      their joint distribution";
         return Some(Err(reason.to_owned()));
     }
     // a t distribution may have none

@@ -232,7 +232,7 @@ fn from_trials(
                      volume"
             .to_owned()),
         Some(_) if order > smallest::MOST_OUTPUTS => {
-            Err(format!("trials tell the density of {} outputs at most", smallest::MOST_OUTPUTS))
+            Err(format!("trials give the density of at most {} outputs", smallest::MOST_OUTPUTS))
         }
         Some(root) => smallest::smallest(&places, root, probability),
     };

@@ -120,12 +120,12 @@ impl fmt::Display for RegressionError {
                 point + 1
             ),
             Self::TooFewPoints { points, parameters, estimated: false } => {
-                write!(f, "{points} points cannot tell {parameters} parameters")
+                write!(f, "{points} points cannot determine {parameters} parameters")
             }
             Self::TooFewPoints { points, parameters, estimated: true } => write!(
                 f,
-                "{points} points cannot tell {parameters} parameters and the scatter about the \
-                 curve; state the standard uncertainties of y, or take {} points or more",
+                "{points} points cannot determine {parameters} parameters and the scatter about \
+                 the curve; state the standard uncertainties of y, or take {} points or more",
                 parameters + 1
             ),
             Self::TooFewAbscissae { different, parameters } => write!(
@@ -134,11 +134,10 @@ impl fmt::Display for RegressionError {
                  needs {parameters}",
                 if *different == 1 { "" } else { "s" }
             ),
-            Self::Dependent { .. } => {
-                f.write_str("the points cannot tell all the parameters from each other")
-            }
+            Self::Dependent { .. } => f.write_str("the points cannot distinguish all parameters"),
             Self::OrdinatesUnknown => f.write_str(
-                "the uncertainties of x are stated and those of y are not; state both, or neither",
+                "the uncertainties of x are stated, but not the uncertainties of y; state both, \
+                 or neither",
             ),
             Self::Undefined { point } => {
                 write!(
@@ -154,7 +153,7 @@ impl fmt::Display for RegressionError {
                  may help"
             ),
             Self::NoScatter => f.write_str(
-                "the points lie exactly on the curve, so that their scatter tells no uncertainty; \
+                "the points lie exactly on the curve, so that their scatter gives no uncertainty; \
                  state the standard uncertainties of y",
             ),
         }

@@ -94,7 +94,7 @@ pub(super) fn coefficient(between: [&str; 2], coefficient: f64) -> Result<(), Ta
     if !(-1.0..=1.0).contains(&coefficient) {
         refuse("must be from -1 to 1")
     } else if between[0] == between[1] {
-        refuse("would be that of a quantity with itself")
+        refuse("is between a quantity and itself")
     } else {
         Ok(())
     }

@@ -190,8 +190,9 @@ impl fmt::Display for TaskError {
             Self::GivenTwice { what, of } => write!(f, "`{of}`: the {what} is given twice"),
             Self::TypedEquations { name } => write!(
                 f,
-                "a typed measurement has equations of its own and takes no other, such as that of \
-                 `{name}`; write the model in equations, or put the equation into the measurement"
+                "a typed measurement has equations of its own and takes no others, such as the \
+                 equation of `{name}`; write the model in equations, or put the equation into the \
+                 measurement"
             ),
             Self::Count { what, found, expected } => {
                 write!(f, "the task has {found} {what}, and must have {expected} as its model is")

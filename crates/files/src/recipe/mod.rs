@@ -386,8 +386,8 @@ impl RecipeFile {
                 }
             }
             Refused::NotApart { channel, samples } => format!(
-                "{}: {samples} samples are too few, or too short a time, to tell the frequencies and \
-                 their multiples apart",
+                "{}: {samples} samples are too few, or too short a time, to separate the \
+                 frequencies and their multiples",
                 place(*channel)
             ),
             Refused::NotFound { channel } => format!(

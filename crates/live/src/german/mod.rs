@@ -5,7 +5,7 @@
 mod tests;
 mod texts;
 
-use texts::{BRIEF_LENGTH, Pair, TEXTS};
+use texts::{BRIEF_LENGTH, TEXTS};
 
 /// Whose words stand at the beginnings of a part's rows and at the lines of its figures.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -171,13 +171,12 @@ fn filled(german: &str, captured: &[&str]) -> String {
     while let Some((before, behind)) = rest.split_once('{') {
         made += before;
         let Some((place, after)) = behind.split_once('}') else { break };
-        let digits = place.trim_end_matches([':', ';', '+']);
+        let digits = place.trim_end_matches([':', '+']);
         let text = digits.parse().ok().and_then(|place: usize| captured.get(place));
         let text = text.copied().unwrap_or("");
         made += &match place.strip_prefix(digits) {
             Some(":") => text_of(text).unwrap_or_else(|| text.to_owned()),
-            Some(";") => replaced(text, &TEXTS.shapes, |name| format!("({name}, ")),
-            Some("+") => replaced(text, &TEXTS.between, str::to_owned),
+            Some("+") => joined_in_german(text),
             _ => with_commas(text),
         };
         rest = after;
@@ -191,8 +190,10 @@ fn with_commas(text: &str) -> String {
     if is_code { text.to_owned() } else { gumption_report::with_comma(text) }
 }
 
-fn replaced(text: &str, all: &[Pair], form: impl Fn(&str) -> String) -> String {
-    all.iter().fold(text.to_owned(), |text, (english, german)| {
-        text.replace(&form(english), &form(german))
-    })
+/// An enumeration with German words between its names.
+fn joined_in_german(text: &str) -> String {
+    TEXTS
+        .between
+        .iter()
+        .fold(text.to_owned(), |text, (english, german)| text.replace(english, german))
 }

@@ -2,9 +2,9 @@
 //!
 //! - `words`, `shapes`: words of tables and figures that stand alone; names of distributions.
 //! - `between`: what stands between names in enumerations.
-//! - `sentences`: sentences, captions and cells. The first one that fits is taken. English has `{}` for what varies, and German its places: `{0}` as
-//!   it stands, `{0:}` said in German itself, `{0;}` with the names of shapes in German, `{0+}` with
-//!   what stands between names in German. A full stop at the end belongs to neither.
+//! - `sentences`: sentences, captions and cells; the first one that matches is used. English has `{}`
+//!   for variable parts, and German their positions: `{0}` unchanged, `{0:}` translated, `{0+}` with
+//!   German words between names. A full stop at the end belongs to neither.
 //! - `brief`: parts of sentences and cells, which might be found in many sentences: they are looked for
 //!   last, and in short texts alone.
 
@@ -16,7 +16,7 @@ use serde::{Deserialize, Deserializer};
 pub(super) const BRIEF_LENGTH: usize = 60;
 
 /// A text in English and in German.
-pub(super) type Pair = (String, String);
+type Pair = (String, String);
 
 /// The tables, read when the first text is translated.
 pub(super) static TEXTS: LazyLock<Texts> = LazyLock::new(Texts::of_program);

@@ -43,7 +43,7 @@ pub(super) fn of(report: &AuditReport<'_>) -> Document {
         document.section("Notes");
         document.blocks.push(Block::List(crate::words::lines(report.warnings)));
     }
-    document.section("To repeat this");
+    document.section("Reproducing this result");
     let provenance = report.provenance;
     let mut lines = vec![
         format!("gumption {}", env!("CARGO_PKG_VERSION")),

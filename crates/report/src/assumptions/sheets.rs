@@ -115,7 +115,7 @@ fn index(sobol: Option<&Sobol>, which: usize) -> String {
 pub(super) fn change(moved: &VariantChange) -> String {
     match moved.change {
         None => missing(),
-        Some(_) if !moved.is_seen() => "none seen".to_owned(),
+        Some(_) if !moved.is_seen() => "none".to_owned(),
         Some(change) => {
             let error = 100.0 * moved.error.unwrap_or(0.0);
             signed(100.0 * change, |value| justified(value, Some(TENTHS), error)) + " %"

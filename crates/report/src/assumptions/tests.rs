@@ -51,10 +51,10 @@ fn an_offset_is_named() {
     let provenance = Provenance::default();
     let warnings = &found.warnings;
     let report = AuditReport { task: &file.task, audit: &found, warnings, provenance: &provenance };
-    let said = "The 6 readings of off lie together, off the stated centre: their mean is 0.021050 V, \
-                their standard deviation 0.00019 V. The mean is off by 0.021050 V, more than their \
-                scatter makes (t test, 99 %). That is an offset to be corrected (JCGM 100, 3.2.4), no \
-                width and no shape: correct it, and state what is left.";
+    let said = "The 6 readings of off agree with each other, but not with the stated centre: their \
+                mean is 0.021050 V, their standard deviation 0.00019 V. The mean differs from the \
+                centre by 0.021050 V, more than their scatter explains (t test, 99 %). Correct this \
+                offset (JCGM 100, 3.2.4), and state the remaining uncertainty.";
     let page = table(&report).split_whitespace().collect::<Vec<_>>().join(" ");
     assert!(page.contains(&format!("off is too narrow. {said}")), "{page}");
     assert!(super::markdown(&report).replace('\\', "").contains(said));

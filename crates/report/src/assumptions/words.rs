@@ -5,28 +5,30 @@ use crate::number::{coarser, position, rounded, significant, to};
 use crate::table::in_unit;
 use crate::{conditions_text, grouped, plain};
 use gumption_assumptions::{
-    EvidenceOffset, EvidenceTest, EvidenceVerdict, InputAudit, OutputAudit,
+    Alternative, EvidenceOffset, EvidenceTest, EvidenceVerdict, InputAudit, Kept, OutputAudit,
 };
 use gumption_engine::number::largest_first;
 
-pub(super) const MOVES: &str = "Changes are those of half the length of the coverage interval, \
-    relative to the stated assumptions, from the same random numbers; a change below 0.05 % or \
-    within twice its numerical standard error is none seen. Allowed is how far the width may be wrong until that \
-    length moves by more than the limit.";
+pub(super) const MOVES: &str = "Changes are relative changes of the half-length of the coverage \
+    interval, with the same random numbers as for the stated assumptions. Changes below 0.05 % or \
+    within twice their numerical standard error are shown as \"none\". \"Allowed\" is how wrong \
+    the width may be before the half-length changes by more than the limit.";
 
-pub(super) const SHAPES: &str = "Kept is the standard uncertainty u (of a t its scale) or the limits \
-    (of a normal distribution or t two standard deviations about the mean).";
+pub(super) const SHAPES: &str = "Either the standard uncertainty u (for t, its scale) or the \
+    limits are kept. The limits of a normal distribution or t are two standard deviations about \
+    the mean.";
 
 pub(super) const SOBOL: &str = "Sobol indices (Jansen's estimators) are shares of the variance: \
-    first-order what an input does by itself, total with all that it does together with others. \
-    Their numerical standard errors are some units of the last digit. Where they depart by more from \
-    the share of the linear budget, the model is not linear, or few degrees of freedom make what is drawn for an input wider than its standard uncertainty.";
+    the first-order index for an input alone, the total index with all its interactions. Their \
+    numerical standard errors are some units of the last digit. If they differ by more from the \
+    share of the linear budget, there are two possible causes: the model is not linear, or the t \
+    distribution of an input is wider than its standard uncertainty.";
 
-pub(super) const EVIDENCE: &str = "The p-value (Anderson-Darling) is that of the stated distribution \
-    as it stands, centre and width. Supported is the width of that shape about the stated centre. \
-    Too narrow: a reading outside the limits, or the whole 95 % interval above the stated width. Too \
-    wide: the interval at 99 % below it. Wrong shape: a p-value below 0.01. Fewer than five readings \
-    tell nothing.";
+pub(super) const EVIDENCE: &str = "The p-value (Anderson-Darling) tests the stated distribution \
+    with its centre and width. \"Supported\" is the width that the readings give for this shape \
+    about the stated centre. Too narrow: a reading is outside the limits, or the whole 95 % \
+    interval is above the stated width. Too wide: the 99 % interval is below it. Wrong shape: the \
+    p-value is below 0.01. Fewer than five readings are too few for a test.";
 
 pub(super) fn title(report: &AuditReport<'_>) -> String {
     let title = plain(&report.task.title);
@@ -82,36 +84,37 @@ pub(super) fn baseline(report: &AuditReport<'_>, output: usize, of: &OutputAudit
 /// Which shapes matter.
 pub(super) fn verdict(report: &AuditReport<'_>, of: &OutputAudit) -> String {
     let limit = report.audit.question.allowed;
-    let mut matter: Vec<(&InputAudit, f64)> = of
+    let change = |other: &Alternative| other.moved.change.unwrap_or(0.0);
+    let mut matter: Vec<(&InputAudit, &Alternative)> = of
         .inputs
         .iter()
-        .filter_map(|input| Some((input, input.largest_change()?)))
-        .filter(|(_, change)| change.abs() > limit)
+        .filter_map(|input| Some((input, input.most_different()?)))
+        .filter(|(_, other)| change(other).abs() > limit)
         .collect();
-    largest_first(&mut matter, |a| a.1.abs());
+    largest_first(&mut matter, |(_, other)| change(other).abs());
     let asked = of.inputs.iter().any(|input| !input.alternatives.is_empty());
     let limit = percent(limit);
     if !asked {
-        return "No input has a shape that was assumed.".to_owned();
+        return "No input has an assumed shape.".to_owned();
     }
     if matter.is_empty() {
-        return format!(
-            "No assumed shape matters: none moves the interval by more than {limit} %."
-        );
+        return format!("No assumed shape matters: none changes U by more than {limit} %.");
     }
-    let names: Vec<String> = matter
-        .iter()
-        .map(|(input, change)| {
-            let name = plain(report.name(input.variable));
-            let sign = if *change > 0.0 { "+" } else { "" };
-            format!(
-                "{name} ({}, {sign}{} %)",
-                input.distribution.name(),
-                rounded(100.0 * change, -1)
-            )
-        })
-        .collect();
-    format!("Shapes that matter, by more than {limit} %: {}.", names.join(", "))
+    let sentence = |(input, other): &(&InputAudit, &Alternative)| {
+        let sign = if change(other) > 0.0 { "+" } else { "" };
+        let kept = match other.kept {
+            Kept::StandardUncertainty => "u",
+            Kept::Limits => "limits",
+        };
+        format!(
+            "The shape of {} matters: another shape ({} with the same {kept}) changes U by \
+             {sign}{} %.",
+            plain(report.name(input.variable)),
+            other.distribution.name(),
+            rounded(100.0 * change(other), -1)
+        )
+    };
+    matter.iter().map(sentence).collect::<Vec<_>>().join(" ")
 }
 
 /// The readings that speak against an assumption.
@@ -140,10 +143,10 @@ fn offset(report: &AuditReport<'_>, of: &EvidenceTest, offset: EvidenceOffset) -
     let digits = position(offset.standard_error, 2).or(position(offset.difference(), 3));
     let [mean, off] = [offset.mean, offset.difference().abs()].map(|value| to(value, digits));
     format!(
-        "The {} readings of {name} lie together, off the stated centre: their mean is {mean}{unit}, \
-         their standard deviation {}{unit}. The mean is off by {off}{unit}, more than their scatter \
-         makes (t test, {} %). That is an offset to be corrected (JCGM 100, 3.2.4), no width and no \
-         shape: correct it, and state what is left.",
+        "The {} readings of {name} agree with each other, but not with the stated centre: their \
+         mean is {mean}{unit}, their standard deviation {}{unit}. The mean differs from the \
+         centre by {off}{unit}, more than their scatter explains (t test, {} %). Correct this \
+         offset (JCGM 100, 3.2.4), and state the remaining uncertainty.",
         of.readings,
         significant(offset.standard_deviation, 2),
         percent(EvidenceOffset::LEVEL),

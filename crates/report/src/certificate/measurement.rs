@@ -24,8 +24,8 @@ const LEFT_OUT: &str = "…";
 pub(super) struct StatedModel {
     /// Quantities with their equations, in the order in which they are computed.
     pub(super) equations: Vec<[String; 2]>,
-    /// Symbols with their meaning, which may be empty, and unit. If there are very many, only those
-    /// with a meaning, and none if these are too many as well.
+    /// Symbols with their meaning and unit, without symbols that the model does not describe; empty
+    /// if there are too many.
     pub(super) symbols: Vec<[String; 3]>,
 }
 
@@ -56,12 +56,8 @@ impl StatedModel {
         let quantities = outputs.chain(inputs).chain(&task.model.conditions);
         let symbols: Vec<[String; 3]> = quantities
             .map(|of| [plain(&of.name), meaning(&of.about), plain(of.unit.text())])
+            .filter(|[_, meaning, _]| !meaning.is_empty())
             .collect();
-        // if there are very many, only those with a description
-        let many = symbols.len() > MOST_SYMBOLS;
-        let told = |of: &[String; 3]| !of[1].is_empty();
-        let symbols: Vec<[String; 3]> =
-            symbols.into_iter().filter(|of| !many || told(of)).collect();
         Self {
             equations: equations
                 .map(|(name, text)| [name, without_files(&text)])
@@ -97,9 +93,7 @@ pub(super) fn sections(document: &mut Document, report: &CertificateReport<'_>) 
         let column = |place: usize| of.symbols.iter().map(move |of| of[place].clone());
         let mut sheet = Sheet::default();
         sheet.text(&header(|w| w.symbol), column(0));
-        if column(1).any(|text| !text.is_empty()) {
-            sheet.text(&header(|w| w.meaning), column(1));
-        }
+        sheet.text(&header(|w| w.meaning), column(1));
         sheet.units(&header(|w| w.unit), column(2).map(|unit| unit_text(&unit)));
         document.table(sheet);
     }

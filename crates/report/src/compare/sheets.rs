@@ -63,7 +63,7 @@ pub(super) fn laboratories(comparison: &Comparison, unit: &str) -> Sheet {
     sheet.numbers("x", rows.iter().map(|row| own(row).0));
     sheet.numbers("U(x)", rows.iter().map(|row| own(row).1));
     if rows.iter().any(|row| row.factor_stated != FACTOR) {
-        sheet.numbers("k of\nthat", rows.iter().map(|row| factor(row.factor_stated)));
+        sheet.numbers("k of\nthis U", rows.iter().map(|row| factor(row.factor_stated)));
     }
     let of = |row: &DegreeOfEquivalence| with_uncertainty(row.difference, row.expanded, DIGITS);
     sheet.numbers("difference", rows.iter().map(|row| of(row).0));
@@ -105,7 +105,7 @@ pub(super) fn estimators(comparison: &Comparison) -> Sheet {
     let factor = |of: &ConsensusValue| {
         of.hartung_knapp.map_or_else(|| MISSING.to_owned(), |of| rounded(of.coverage_factor, SCORE))
     };
-    sheet.numbers("k of\nthat", values.iter().map(factor));
+    sheet.numbers("k of\nthis U", values.iter().map(factor));
     sheet
 }
 

@@ -8,13 +8,13 @@ use crate::plain;
 use gumption_analysis::compare::laboratories::ReferenceValue;
 use gumption_analysis::compare::{Comparison, Estimator, FACTOR, consensus};
 
-pub(super) const PAIRS: &str = "En is the modulus of the difference over its expanded uncertainty U \
-    (k = 2; results stated with other factors are brought to that); results are compatible where it \
-    is at most 1. Zeta is the same over the standard uncertainty. The probability is that of two \
-    results of one value that differ by as much or more.";
+pub(super) const PAIRS: &str = "En is the modulus of the difference divided by its expanded \
+    uncertainty U (k = 2; results with other k are converted to k = 2). Results are compatible if \
+    En is at most 1. Zeta is the modulus of the difference divided by its standard uncertainty. \
+    The probability is for two results of one value to differ by at least this much.";
 
-pub(super) const ROUNDING: &str = "En by the digits: what values and uncertainties that print alike \
-    allow.";
+pub(super) const ROUNDING: &str = "En by the digits: range of En for all values and uncertainties \
+    that round to the printed digits.";
 
 /// A sentence about the results of laboratories.
 pub(super) fn laboratories(comparison: &Comparison) -> String {
@@ -28,24 +28,24 @@ pub(super) fn laboratories(comparison: &Comparison) -> String {
              the inverse covariance matrix."
         }
         Estimator::Birge | Estimator::DerSimonianLaird | Estimator::MandelPaule => {
-            "The reference value is that of the estimator that was asked for, from all results, with \
-             what it adds to their uncertainties."
+            "The reference value is from the selected estimator and all results, with its \
+             addition to their uncertainties."
         }
     };
     format!(
-        "{made} Results are consistent if the probability of chi-squared of their mean weighted by the \
-         stated uncertainties is at least 5 %. U of a difference (k = 2) takes into account that the \
-         reference value is made from the results; results are compatible where En is at most 1, the \
-         probability is that of a normal distribution."
+        "{made} Results are consistent if the probability of chi-squared is at least 5 % for \
+         their mean weighted by the stated uncertainties. U of a difference (k = 2) includes the \
+         correlation of the reference value with the results. Results are compatible if En is at \
+         most 1. The probability is from a normal distribution."
     )
 }
 
 pub(super) const ESTIMATORS: &str = "Birge multiplies all stated uncertainties by one factor; \
-    DerSimonian-Laird and Mandel-Paule add one standard deviation tau between laboratories to each. \
-    Hartung and Knapp take the uncertainty of such a mean from the observed dispersion, with the t \
-    factor for as many degrees of freedom as there are other laboratories (95.45 %): state that U of \
-    the random-effects models where there are few laboratories. --estimator NAME gives degrees of \
-    equivalence from the reference value of that name.";
+    DerSimonian-Laird and Mandel-Paule add one standard deviation tau between laboratories to \
+    each. Hartung and Knapp take the uncertainty of the mean from the observed dispersion, with a \
+    t factor (95.45 %); its degrees of freedom are the number of other laboratories. State the U \
+    of the random-effects models if there are few laboratories. --estimator NAME gives degrees of \
+    equivalence from the reference value of this estimator.";
 
 /// Which one to take.
 pub(super) fn recommended(comparison: &Comparison) -> String {
@@ -142,10 +142,10 @@ fn of_laboratories(comparison: &Comparison, unit: &str) -> Vec<String> {
         return vec![
             consistency,
             format!(
-                "No two of the results agree, so that there is no consistent subset: the reference \
-                 value {} is the result of {name} alone, and that of any other laboratory would do \
-                 as well. Find the reason of the disagreement, or choose `{}`, which takes all of \
-                 them with a common additional uncertainty.",
+                "No two results agree, so there is no consistent subset: the reference value {} \
+                 is the result of {name} alone, and the result of any other laboratory would be \
+                 equally good. Find the cause of the disagreement, or choose `{}`, which uses all \
+                 results with a common additional uncertainty.",
                 value(reference),
                 Estimator::MandelPaule.name()
             ),
@@ -155,7 +155,7 @@ fn of_laboratories(comparison: &Comparison, unit: &str) -> Vec<String> {
         consistency,
         format!(
             "Reference value {} from the largest consistent subset, {} laboratories without {} \
-             ({}; sought among {}).",
+             ({}; searched among {}).",
             value(reference),
             reference.members.len(),
             out.join(", "),
@@ -180,10 +180,11 @@ fn ties(comparison: &Comparison) -> String {
     if ties.count == 0 {
         return String::new();
     }
-    let order = "which one is taken follows from the order of the rows alone";
+    let order = "only the order of the rows decides which one is used";
     if ties.subsets.is_empty() {
         return format!(
-            "Taking out one laboratory at a time, {} would have lowered chi-squared as much: {order}.",
+            "Removing one laboratory at a time, {} would have lowered chi-squared as much: \
+             {order}.",
             if ties.count == 1 { "another one" } else { "others" }
         );
     }
@@ -197,10 +198,10 @@ fn ties(comparison: &Comparison) -> String {
     if ties.count > named.len() {
         named.push(format!("{} more", ties.count - named.len()));
     }
-    let (are, do_so) = if ties.count == 1 { ("is", "does") } else { ("are", "do") };
+    let are = if ties.count == 1 { "is" } else { "are" };
     format!(
-        "There {are} {} of the same size with the same chi-squared ({}), which {do_so} as well: \
-         {order}. Give it only with a technical reason.",
+        "There {are} {} of the same size with the same chi-squared ({}): {order}. State it only \
+         with a technical reason.",
         if ties.count == 1 {
             "another subset".to_owned()
         } else {
@@ -219,8 +220,8 @@ fn advice(comparison: &Comparison) -> String {
     }
     let name = advised.name();
     format!(
-        "Degrees of equivalence and En are from this subset, which is right only where a technical \
-         reason speaks against the laboratories that are left out. Without one take Mandel-Paule: \
-         `--estimator {name}` (see below)."
+        "Degrees of equivalence and En are from this subset. Use it only if a technical reason \
+         excludes the other laboratories; otherwise use Mandel-Paule: `--estimator {name}` (see \
+         below)."
     )
 }

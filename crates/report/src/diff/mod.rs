@@ -310,11 +310,11 @@ fn heading(output: &OutputDifference, at: &str) -> String {
     change + &relative(output.expanded) + ", by the law of propagation"
 }
 
-/// The half-lengths of the trials where clause 8 says that U is not valid.
+/// The half-lengths of the trials if clause 8 does not validate U.
 fn by_trials(output: &OutputDifference) -> Option<String> {
     let refuted = output.by_trials.map(|of| of.is_some_and(|of| of.gum_valid == Some(false)));
     let files = match refuted {
-        [true, true] => "in both files",
+        [true, true] => "in either file",
         [true, false] => "in the first file",
         [false, true] => "in the second file",
         [false, false] => return None,
@@ -326,8 +326,8 @@ fn by_trials(output: &OutputDifference) -> Option<String> {
     let change = relative(output.by_trials.map(|of| of.map(|of| of.half_length)));
     let goes = format!("from {from} to {to} {}", unit_of(output)).trim_end().to_owned() + &change;
     Some(format!(
-        "This U is not valid {files} (JCGM 101, clause 8): half the length of the trials' coverage interval \
-         goes {goes}. The changes below are those of U."
+        "U is not validated {files} (JCGM 101, clause 8): half the length of the trials' coverage interval \
+         goes {goes}. The changes below are changes of U."
     ))
 }
 

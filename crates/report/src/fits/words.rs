@@ -19,18 +19,16 @@ pub(super) fn form(curve: &CurveFunction) -> String {
         text => format!(" {}", plain(text)),
     };
     let method = match (points.is_exact_in_x(), &points.of_y, &points.cross) {
-        (true, Spread::None, _) => {
-            "ordinary least squares, as nothing is stated of the uncertainty of y"
-        }
+        (true, Spread::None, _) => "ordinary least squares, because no uncertainty is stated for y",
         (true, Spread::Each(_), _) => "weighted least squares",
         (true, Spread::Joint(_), _) => "generalized least squares with the covariance matrix of y",
         (false, Spread::Joint(_), _) | (false, _, Cross::Joint(_)) => {
             "generalized distance regression with the covariance matrices of x and y"
         }
         (false, _, Cross::Each(_)) => {
-            "generalized distance regression, x and y of each point being correlated"
+            "generalized distance regression, with correlated x and y of each point"
         }
-        (false, ..) => "generalized distance regression, x and y being uncertain",
+        (false, ..) => "generalized distance regression, with uncertain x and y",
     };
     format!(
         "{equation}, fitted to {} points from x = {} to {}{} by {method}.",
@@ -81,20 +79,21 @@ pub(super) fn agreement(curve: &CurveFunction) -> String {
         (_, _, Some(factor)) if fit.points.of_y == Spread::None => {
             let unit = plain(curve.y.text());
             format!(
-                "The standard deviation of the residuals is {}{} with {}; it stands \
-                 for the uncertainty of y, so that nothing is left to test the form of the curve by.",
+                "The standard deviation of the residuals is {}{} with {}; it is used as u(y), so \
+                 the fit cannot be tested for lack of fit.",
                 significant(factor, 3),
                 if unit.is_empty() || unit == "1" { String::new() } else { format!(" {unit}") },
                 degrees_of_freedom(&fit.dof.to_string())
             )
         }
         (_, _, Some(factor)) => format!(
-            "The residuals make the stated uncertainties {} times as large, with {}; \
-             nothing is left to test the form of the curve by.",
+            "The stated uncertainties are multiplied by {}, from the residuals with {}, so the \
+             fit cannot be tested for lack of fit.",
             significant(factor, 3),
             degrees_of_freedom(&fit.dof.to_string())
         ),
-        _ => "The curve goes through all points, so that nothing tests its form.".to_owned(),
+        _ => "The curve goes through all points, so the fit cannot be tested for lack of fit."
+            .to_owned(),
     }
 }
 
@@ -103,9 +102,9 @@ pub(super) fn statement(curve: &CurveFunction, coverage: Coverage) -> String {
     let k = factor(curve, coverage);
     let [least, most] = curve.fit.points.range();
     format!(
-        "From x = {} to {} the calibration function has the expanded uncertainty U(x) = k u(x), with the \
-         coverage factor k = {}, where u(x)^2 is the sum of all covariances of the coefficients times \
-         the derivatives by both:",
+        "From x = {} to {} the calibration function has the expanded uncertainty U(x) = k u(x), \
+         with the coverage factor k = {}, where u(x)^2 is the sum over all pairs of coefficients: \
+         their covariance times the derivatives with respect to both:",
         exact(least),
         exact(most),
         significant(k, 3)

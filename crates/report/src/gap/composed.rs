@@ -137,7 +137,7 @@ fn sentence(of: &ComposedEffect) -> String {
     };
     let parameters: Vec<String> = of.parameters.iter().map(parameter).collect();
     format!(
-        "With probability {}: {}. {}, with {}; it removes the fraction {} of the gap (composed, not \
+        "With probability {}: {}. {}, with {}. It removes a fraction {} of the gap (composed, not \
          from your list).",
         probability(of.probability),
         words(of),
@@ -155,14 +155,14 @@ pub(super) fn unlisted(diagnosis: &Diagnosis) -> Option<String> {
         .collect();
     (!named.is_empty()).then(|| {
         format!(
-            "Of the effects that ship with gumption and are not in the list, these would explain it \
-             alone: {}. `\"catalogue\": [\"NAME\"]` in the case adds one.",
+            "Effects that ship with gumption, are not in the list, and would explain the gap \
+             alone: {}. Add one by `\"catalogue\": [\"NAME\"]` in the case.",
             named.join(", ")
         )
     })
 }
 
 /// What can be done with the composed effects.
-pub(super) const HOW_TO_USE: &str = "A composed effect can be pasted into the case's `effects` as it \
-     stands in the JSON answer (`composed`); the next diagnosis then weighs it with the others. It is \
-     a formula that these data suggest, not a cause: look for what does that on the bench.";
+pub(super) const HOW_TO_USE: &str = "A composed effect can be copied from the JSON answer \
+     (`composed`) into the case's `effects`; the next diagnosis then weighs it with the others. \
+     It is a formula that these data suggest, not a cause: look for the cause on the bench.";

@@ -90,14 +90,13 @@ pub(super) fn sentences(diagnosis: &Diagnosis) -> Vec<String> {
 fn words(form: &DepartureForm, conditions: &[NamedQuantity]) -> String {
     let outputs: Vec<String> = form.outputs.iter().map(|name| plain(name)).collect();
     let all = listed(&outputs, " and ");
-    let own = if outputs.len() > 1 { "their sim" } else { "its sim" };
     let with_unit = |number: String, text: &str| match unit(text) {
         Some(unit) => format!("{number} {unit}"),
         None => number,
     };
     let kind = match form.kind {
-        DepartureKind::Additive => "added to the sim".to_owned(),
-        DepartureKind::Proportional => format!("a share of {own}"),
+        DepartureKind::Additive => "an added term".to_owned(),
+        DepartureKind::Proportional => "a share of the sim".to_owned(),
     };
     let (what, place_unit) = match &form.over {
         DepartureOver::Condition(name) => {
@@ -125,14 +124,18 @@ fn words(form: &DepartureForm, conditions: &[NamedQuantity]) -> String {
         }
         (_, DepartureShape::Dip { at }) => format!("with a minimum over {what} near {}", place(at)),
         (_, DepartureShape::Loop) => {
-            format!("varying with the condition in another way for each {what}")
+            format!("varying differently with the condition for each {what}")
         }
         (_, DepartureShape::Varying) => format!("varying with {what} more than once up or down"),
     };
-    let mut said = format!("{all} departs by what is {kind}, {function}");
+    let mut said = format!("{all} departs by {kind}, {function}");
     if outputs.len() > 1 {
         said = said.replacen("departs", "depart", 1);
-        said.push_str(if form.common { ", alike in all of them" } else { ", each in its own way" });
+        said.push_str(if form.common {
+            ", the same in all of them"
+        } else {
+            ", different in each"
+        });
     }
     if let Some(scale) = form.scale {
         let number = significant(scale, 2);
@@ -166,12 +169,12 @@ fn error_of_settings(form: &DepartureForm, outputs: &[String], condition: &str) 
     let all = listed(outputs, " and ");
     match outputs {
         [first, _, ..] => format!(
-            "{all} depart by errors of their own each time that {what} was set, the same in all readings \
-             until the next; standard deviation of those of {first}: {size}"
+            "{all} each have an error of their own for every setting of {what}, constant until \
+             the next setting; standard deviation for {first}: {size}"
         ),
         _ => format!(
-            "{all} departs by an error of its own each time that {what} was set, the same in all readings \
-             until the next; standard deviation {size}"
+            "{all} has an error for every setting of {what}, constant until the next setting; \
+             standard deviation {size}"
         ),
     }
 }

@@ -35,7 +35,7 @@ pub(super) fn document(
     verdict.extend(words::copies(diagnosis));
     page.blocks.push(Block::Verdict(verdict));
     statement::section(&mut page, words::SIM, words::sim(diagnosis));
-    page.section("What was measured, and what the sim says");
+    page.section("Measured and predicted values");
     for output in 0..diagnosis.outputs.len() {
         let in_characters = || terminal::overlay(diagnosis, output);
         page.picture(|| html::overlay(diagnosis, output), in_characters);
@@ -54,15 +54,15 @@ pub(super) fn document(
     }
     page.picture(|| html::where_map(diagnosis), || None);
     if let Some(sheet) = sheets::present(diagnosis) {
-        page.section("Which effects are there?");
+        page.section("Probability of each effect");
         page.table(sheet);
     }
     if let Some(sheet) = sheets::replication(diagnosis) {
-        page.section("Is it the same for all?");
+        page.section("Sizes in each group");
         page.text(words::REPLICATION);
         page.table(sheet);
     }
-    page.section("Which together?");
+    page.section("Combinations of effects");
     page.table(sheets::hypotheses(diagnosis));
     page.text(words::ODDS);
     if let Some(said) = sheets::left_out(diagnosis) {
@@ -72,17 +72,17 @@ pub(super) fn document(
     page.picture(|| html::intervals(diagnosis), || None);
     let departure = departure::sentences(diagnosis);
     if !departure.is_empty() {
-        page.section("What the departure looks like");
+        page.section("Form of the departure");
         page.blocks.push(Block::List(departure));
     }
     let composed = composed::sentences(diagnosis);
     if !composed.is_empty() {
-        page.section("What would explain it: composed, not from your list");
+        page.section("Composed effects that would explain the gap");
         page.blocks.push(Block::List(composed));
         page.text(composed::HOW_TO_USE);
         composed::unlisted(diagnosis).into_iter().for_each(|said| page.text(said));
     }
-    page.section("How far does it shrink?");
+    page.section("Reduction of the gap");
     page.table(sheets::shrinkage(diagnosis));
     words::shrinkage(diagnosis).into_iter().for_each(|said| page.text(said));
     words::noise(diagnosis).into_iter().for_each(|said| page.text(said));
@@ -115,7 +115,7 @@ pub(super) fn document(
 fn effect(page: &mut Document, diagnosis: &Diagnosis) {
     let described = words::effects(diagnosis);
     if !described.is_empty() {
-        page.section("What the effect is");
+        page.section("Description of the effects");
     }
     for words::DescribedInWords { sentences, equations } in described {
         sentences.into_iter().for_each(|said| page.text(said));
@@ -131,12 +131,12 @@ fn effect(page: &mut Document, diagnosis: &Diagnosis) {
     if let Some((said, sheet)) =
         words::run_at_verdict(diagnosis).zip(sheets::run_at_verdict(diagnosis))
     {
-        page.section("The simulator at the verdict");
+        page.section("Simulator run at the verdict");
         page.text(said);
         page.table(sheet);
     }
     if let Some(sheet) = sheets::candidates(diagnosis) {
-        page.section("What was looked for");
+        page.section("Candidate effects");
         page.table(sheet);
     }
 }
@@ -165,7 +165,7 @@ pub(super) fn repeat(page: &mut Document, settings: &[(&str, String)], provenanc
     let mut sheet = Sheet::default();
     sheet.text("what", names);
     sheet.text("value", values);
-    page.section("To repeat this");
+    page.section("Reproducing this result");
     page.table(sheet);
-    page.text("The same program, files and seed give the same figures on any number of threads.");
+    page.text("The same program, files and seed give the same numbers on any number of threads.");
 }

@@ -170,7 +170,7 @@ pub(super) fn parameters(diagnosis: &Diagnosis) -> Option<Sheet> {
     };
     if parameters.iter().any(|parameter| about(parameter).is_some_and(|text| !text.is_empty())) {
         let about = |parameter: &EffectParameter| about(parameter).unwrap_or_default();
-        sheet.text("what it is", parameters.iter().map(about));
+        sheet.text("description", parameters.iter().map(about));
     }
     sheet.text("unit", parameters.iter().map(unit));
     sheet.numbers("estimate", column(0));
@@ -211,7 +211,7 @@ pub(super) fn candidates(diagnosis: &Diagnosis) -> Option<Sheet> {
     };
     let mut sheet = Sheet::default();
     sheet.text("effect", candidates.iter().map(|of| plain(&of.name)));
-    sheet.text("what it is", candidates.iter().map(|of| plain(&of.about)));
+    sheet.text("description", candidates.iter().map(|of| plain(&of.about)));
     sheet.text("parameters", candidates.iter().map(parameters));
     sheet.numbers("present with\nprobability", candidates.iter().map(|of| presence(&of.name)));
     Some(sheet)
@@ -252,7 +252,7 @@ pub(super) fn replication(diagnosis: &Diagnosis) -> Option<Sheet> {
     let mut sheet = Sheet::default();
     sheet.text("effect", column(0));
     sheet.numbers("one size\nfor all", column(1));
-    sheet.numbers("each\nits own", column(2));
+    sheet.numbers("another size\nin each", column(2));
     sheet.text("size", column(3));
     for (place, header) in
         ["estimate", "standard\nuncertainty", "interval\nfrom", "\nto"].iter().enumerate()
@@ -308,7 +308,7 @@ pub(super) fn next(diagnosis: &Diagnosis) -> Option<Sheet> {
         return None;
     }
     let what = |proposal: &ProposedMeasurement| match proposal.kind {
-        ProposalKind::Row { .. } => "one row more",
+        ProposalKind::Row { .. } => "one more row",
         ProposalKind::Repeats { .. } => "repeats",
         ProposalKind::Outside { .. } => "outside the data",
         ProposalKind::Input { .. } => "calibrate an input",
@@ -324,7 +324,7 @@ pub(super) fn next(diagnosis: &Diagnosis) -> Option<Sheet> {
     sheet.text("what", proposals.iter().map(|p| what(p).to_owned()));
     sheet.text("where", proposals.iter().map(|p| words::place(diagnosis, p)));
     sheet.numbers("how\noften", proposals.iter().map(|p| p.count.to_string()));
-    sheet.numbers("decides\nof what is open", proposals.iter().map(fall));
+    sheet.numbers("removes of the\nuncertainty", proposals.iter().map(fall));
     sheet.numbers("for odds\nof 20 to 1", proposals.iter().map(wanted));
     Some(sheet)
 }
@@ -368,7 +368,7 @@ pub(super) fn prediction(
     let any = rows.iter().any(|row| measured(row).is_some());
     sheet.numbers("corrected\nestimate", figures.iter().map(|(value, _)| value.clone()));
     sheet.numbers("standard\nuncertainty", figures.into_iter().map(|(_, u)| u));
-    sheet.numbers("sim as\nit was", sims);
+    sheet.numbers("sim\nuncorrected", sims);
     if any {
         sheet.numbers("measured\n(mean)", rows.iter().map(|row| number(measured(row), row)));
     }

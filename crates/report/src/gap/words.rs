@@ -48,10 +48,10 @@ pub(super) fn verdict(diagnosis: &Diagnosis) -> String {
     }
     if verdict.kind != HypothesisKind::None && 1.0 - no_gap(diagnosis) < SURE {
         return format!(
-            "Whether there is a gap is not decided: that {} has the probability {}, and that there is \
-             none {}.",
+            "It is not decided whether there is a gap: the probability that {} is {}, and the \
+             probability of no gap is {}.",
             match verdict.kind {
-                HypothesisKind::Explained => format!("{} makes one", quoted(&verdict.effects)),
+                HypothesisKind::Explained => format!("{} makes a gap", quoted(&verdict.effects)),
                 _ => "none of the candidate effects explains the data".to_owned(),
             },
             probability(verdict.probability),
@@ -77,8 +77,9 @@ pub(super) fn verdict(diagnosis: &Diagnosis) -> String {
         }
         HypothesisKind::Unexplained if explained(diagnosis) > verdict.probability => {
             format!(
-                "There is a gap; that none of the candidate effects explains it is more probable than \
-                 any one of them {how_sure}, and that some of them do has the probability {}.",
+                "There is a gap. No candidate effect explains it {how_sure}: this is more \
+                 probable than any single explanation. All explanations together have the \
+                 probability {}.",
                 probability(explained(diagnosis))
             )
         }
@@ -112,13 +113,12 @@ fn with_something_beside(diagnosis: &Diagnosis, names: &[String], left: &LeftBes
     let shares = diagnosis.shrinkage.shares.iter();
     let own = shares.filter(|of| matches!(of.what, GapPart::Effect(_)));
     let share = percent_of(own.map(|of| of.share_of_gap).sum());
-    let (are, make, them) =
-        if names.len() > 1 { ("are", "make", "them") } else { ("is", "makes", "it") };
+    let (are, explain) = if names.len() > 1 { ("are", "explain") } else { ("is", "explains") };
     let given = left.probability / diagnosis.most_probable.probability;
     let probably = if given >= SURE { "" } else { "probably " };
     format!(
-        "There is a gap: {} {are} there (probability {}) and {make} {share} of it; something else is \
-         {probably}left beside {them} (probability {}, {} of the gap): {}.",
+        "There is a gap. {} {are} present (probability {}) and {explain} {share} of it. Something \
+         else {probably}remains (probability {}, {} of the gap): {}.",
         listed(names, " and "),
         probability(there.min(1.0)),
         probability(left.probability),
@@ -137,8 +137,8 @@ pub(super) fn shares(diagnosis: &Diagnosis) -> Option<String> {
         .collect();
     (!parts.is_empty()).then(|| {
         format!(
-            "Of the mean square of the residuals, in standard uncertainties, with the inputs at what the \
-             data say of them: {}.",
+            "Shares of the mean square of the residuals, in standard uncertainties, with the \
+             inputs at their posterior estimates: {}.",
             parts.join(", ")
         )
     })
@@ -148,7 +148,7 @@ pub(super) fn shares(diagnosis: &Diagnosis) -> Option<String> {
 pub(super) fn part(what: &GapPart) -> String {
     match what {
         GapPart::Effect(name) => plain(name),
-        GapPart::Departure => "what has no name".to_owned(),
+        GapPart::Departure => "unnamed discrepancy".to_owned(),
         GapPart::Noise => "noise".to_owned(),
     }
 }
@@ -165,8 +165,8 @@ fn most_probable_of_several(diagnosis: &Diagnosis) -> String {
     let sure: Vec<String> = sure.map(|of| plain(&of.effect)).collect();
     let start = if !sure.is_empty() {
         format!(
-            "There is a gap, and {} {} there; what else acts is not decided: {} is only the most probable \
-             of several explanations",
+            "There is a gap, and {} {} present. What else acts is not decided: {} is only the \
+             most probable of several explanations",
             listed(&sure, " and "),
             if sure.len() > 1 { "are" } else { "is" },
             quoted(&verdict.effects)
@@ -178,13 +178,13 @@ fn most_probable_of_several(diagnosis: &Diagnosis) -> String {
             quoted(&verdict.effects)
         )
     } else if verdict.effects.is_empty() {
-        "Whether there is a gap is not decided: that there is none is only the most probable of several \
+        "It is not decided whether there is a gap: no gap is only the most probable of several \
          hypotheses"
             .to_owned()
     } else {
         format!(
-            "Whether there is a gap is not decided: that {} makes one is only the most probable of \
-             several hypotheses",
+            "It is not decided whether there is a gap: {} is only the most probable of several \
+             hypotheses",
             quoted(&verdict.effects)
         )
     };
@@ -244,7 +244,10 @@ pub(super) fn present(diagnosis: &Diagnosis) -> Option<String> {
         .map(|present| format!("{} {}", plain(&present.effect), probability(present.probability)))
         .collect();
     (!named.is_empty()).then(|| {
-        format!("Probability that an effect is there, alone or with others: {}.", named.join(", "))
+        format!(
+            "Probability that an effect is present, alone or with others: {}.",
+            named.join(", ")
+        )
     })
 }
 
@@ -265,7 +268,7 @@ pub(super) fn conflicts(diagnosis: &Diagnosis) -> Vec<String> {
         let distance = significant(conflict.prior_distance, 2);
         let counted_in = sentence(&conflict.counted_in(), Language::English);
         format!(
-            "That contradicts its prior: {} = {estimate}{unit} with standard uncertainty {u} is \
+            "This contradicts its prior: {} = {estimate}{unit} with standard uncertainty {u} is \
              {distance} {counted_in}.",
             plain(&parameter.name)
         )
@@ -293,8 +296,8 @@ pub(super) fn noise_verdict(diagnosis: &Diagnosis) -> Vec<String> {
                 ("large", [1.0 / factor.estimate, 1.0 / high, 1.0 / low])
             };
             said.push(format!(
-                "The stated standard uncertainties of {name} are too {word} by a factor of {} ({} to \
-                 {}); that they are off has the probability {}.",
+                "The stated standard uncertainties of {name} are too {word} by a factor of {} ({} \
+                 to {}; probability {}).",
                 significant(estimate, 2),
                 significant(low, 2),
                 significant(high, 2),
@@ -303,8 +306,8 @@ pub(super) fn noise_verdict(diagnosis: &Diagnosis) -> Vec<String> {
             if factor.is_at_limit() {
                 let [least, most] = UncertaintyFactor::LIMITS.map(exact);
                 said.push(format!(
-                    "That is the limit of what is weighed ({least} to {most} times what is stated), so \
-                     that it may be more: look at how they were stated."
+                    "This is the limit of the tried factors ({least} to {most}); the true factor \
+                     may lie beyond it. Check how the uncertainties were stated."
                 ));
             }
         }
@@ -314,9 +317,9 @@ pub(super) fn noise_verdict(diagnosis: &Diagnosis) -> Vec<String> {
             let Some(other) = diagnosis.outputs.get(correlation.other) else { continue };
             let [low, high] = correlation.interval.map(|end| rounded(end, -2));
             said.push(format!(
-                "The noise of {name} and {} is correlated within a row: coefficient {} ({low} to {high}); \
-                 that it is has the probability {}. What both are read against may be off in both; an \
-                 input with `\"per\": \"row\"` in the equations of both says so.",
+                "The noise of {name} and {} is correlated within a row: coefficient {} ({low} to \
+                 {high}), probability {}. Both may share the error of one reference; an input \
+                 with `\"per\": \"row\"` in both equations describes it.",
                 plain(&other.name),
                 rounded(correlation.estimate, -2),
                 probability(correlation.probability)
@@ -325,8 +328,8 @@ pub(super) fn noise_verdict(diagnosis: &Diagnosis) -> Vec<String> {
         if let Some(serial) = noise.serial.filter(|serial| serial.probability > LIKELY) {
             let [low, high] = serial.interval.map(|end| rounded(end, -2));
             said.push(format!(
-                "Neighbouring rows of {name} share noise: their coefficient of correlation is {} ({low} \
-                 to {high}); that there is one has the probability {}.",
+                "The noise of neighbouring rows of {name} is correlated: coefficient {} ({low} to \
+                 {high}), probability {}.",
                 rounded(serial.estimate, -2),
                 probability(serial.probability)
             ));
@@ -335,15 +338,15 @@ pub(super) fn noise_verdict(diagnosis: &Diagnosis) -> Vec<String> {
             said.push(error_of_settings(error, named));
             if error.is_at_limit() {
                 said.push(format!(
-                    "Up to {} times are weighed, so that the probabilities are less sure: look at how \
-                     the uncertainties were stated.",
+                    "Only factors up to {} are tried, so the probabilities are less certain. \
+                     Check how the uncertainties were stated.",
                     exact(SettingError::LIMITS[1])
                 ));
             }
         }
         for suspect in noise.suspects.iter().filter(|suspect| suspect.probability > LIKELY) {
             said.push(format!(
-                "Row {} of {name} is off by {} standard uncertainties with probability {}.",
+                "Row {} of {name} is off by {} standard uncertainties (probability {}).",
                 suspect.row + 1,
                 significant(suspect.size, 2),
                 probability(suspect.probability)
@@ -360,13 +363,13 @@ fn error_of_settings(error: &SettingError, output: &NamedQuantity) -> String {
     let size = unit(&output.unit).map_or(size.clone(), |unit| format!("{size} {unit}"));
     let set = error.condition.as_deref().map_or_else(|| "the conditions".to_owned(), plain);
     let remedy = match error.is_per_value {
-        true => format!("; an input with `\"per\": \"{set}\"` says it"),
+        true => format!("; an input with `\"per\": \"{set}\"` describes it"),
         false => String::new(),
     };
     format!(
-        "Readings of {} at one setting of {set} share an error with a standard deviation of {size}, {} \
-         ({low} to {high}) times the standard uncertainty of a reading; that they do has the probability \
-         {}{remedy}.",
+        "Readings of {} at one setting of {set} share an error with a standard deviation of \
+         {size}, {} ({low} to {high}) times the standard uncertainty of a reading (probability \
+         {}){remedy}.",
         plain(&output.name),
         significant(error.estimate, 2),
         probability(error.probability)
@@ -382,24 +385,25 @@ pub(super) fn look_alikes(diagnosis: &Diagnosis) -> Option<String> {
         return None;
     }
     Some(format!(
-        "These data cannot tell it from: {}. All of them together have the probability {}.",
+        "These data cannot distinguish it from: {}. Together they have the probability {}.",
         others.join("; "),
         probability(verdict.indistinguishable_probability)
     ))
 }
 
 /// What the sizes in groups are.
-pub(super) const REPLICATION: &str = "Sizes of each group of rows, over all hypotheses that the effect \
-     is part of, with the probabilities that it is there with one size for all groups or with one of \
-     each group's own; the spread is the standard deviation between groups in the latter case.";
+pub(super) const REPLICATION: &str = "Sizes in each group of rows, averaged over all hypotheses \
+     with the effect. The probabilities are for one size in all groups and for another size in \
+     each group. The spread is the standard deviation between groups in the second case.";
 
 /// What a table of odds means.
-pub(super) const ODDS: &str = "Odds: how much more probable the first hypothesis is than this one.";
+pub(super) const ODDS: &str = "Odds: probability of the first hypothesis divided by the \
+    probability of this one.";
 
 /// That the diagnosis was interrupted.
 pub(super) fn interrupted(diagnosis: &Diagnosis) -> Option<String> {
-    let note = diagnosis.notes.iter().find(|note| note.code() == "interrupted");
-    note.filter(|_| diagnosis.interrupted).map(|note| plain(&self::note(note)))
+    let note = diagnosis.notes.iter().find(|note| note.code() == INTERRUPTED);
+    note.map(|note| plain(&self::note(note)))
 }
 
 /// Rows that repeat others, which the verdict depends on.
@@ -408,11 +412,12 @@ pub(super) fn copies(diagnosis: &Diagnosis) -> Option<String> {
     note.map(|note| plain(&self::note(note)))
 }
 
-/// The note that stands beside the verdict.
+/// The notes that are printed with the verdict.
 const COPIED_ROWS: &str = "copied-rows";
+const INTERRUPTED: &str = "interrupted";
 
 /// The title above what the sim computes.
-pub(super) const SIM: &str = "The sim";
+pub(super) const SIM: &str = "Model";
 
 /// What the sim computes.
 pub(super) fn sim(diagnosis: &Diagnosis) -> Measurement<'_> {
@@ -420,8 +425,8 @@ pub(super) fn sim(diagnosis: &Diagnosis) -> Measurement<'_> {
 }
 
 /// What stands above the formulas of an effect.
-pub(super) const EQUATIONS: &str = "It changes these quantities of the sim (a quantity's own name on the right is its value without \
-     the effect):";
+pub(super) const EQUATIONS: &str = "It changes these quantities of the sim. On the right side, a \
+     quantity's own name means its value without the effect:";
 
 /// An effect of the verdict, in words and formulas.
 pub(super) struct DescribedInWords {
@@ -452,7 +457,7 @@ pub(super) fn effects(diagnosis: &Diagnosis) -> Vec<DescribedInWords> {
             .map(|[name, _, about]| format!("{} is {}", plain(name), plain(about)))
             .collect();
         if !parameters.is_empty() {
-            sentences.push(format!("Of its parameters, {}.", parameters.join("; ")));
+            sentences.push(format!("Parameters: {}.", parameters.join("; ")));
         }
         if !effect.source.is_empty() {
             sentences.push(format!("Source: {}.", plain(&effect.source).trim_end_matches('.')));
@@ -478,23 +483,22 @@ pub(super) fn settings(diagnosis: &Diagnosis) -> String {
 pub(super) fn gap(diagnosis: &Diagnosis) -> String {
     let gap = diagnosis.gap;
     let Some(p) = gap.p_value else {
-        return "The noise is estimated from the residuals themselves, so there is no test of \
-                whether they are larger than it."
+        return "The noise is estimated from the residuals themselves, so the residuals cannot be \
+                tested against it."
             .to_owned();
     };
     let (chi2, dof) = (tenths(gap.chi2), degrees_of_freedom(&exact(gap.dof)));
     if diagnosis.noise.iter().all(|noise| noise.estimated.is_none()) {
         format!(
-            "Chi-square test of all residuals together, in the metric of their covariance: chi-square \
-             {chi2} with {dof}, {}, the probability of residuals as large as these \
-             without a gap.",
+            "Chi-square test of all residuals with their covariance matrix: chi-square {chi2} \
+             with {dof}, {}. p is the probability of residuals at least this large without a gap.",
             p_equals(p)
         )
     } else {
         format!(
-            "F test of lack of fit, means of repeated rows against their scatter: sum of squares \
-             {chi2} in variances of the repeats with {dof}, {}, the probability of \
-             means as far from the sim as these without a gap.",
+            "F test of lack of fit (means of repeated rows against their scatter): sum of squares \
+             {chi2} in variances of the repeats with {dof}, {}. p is the probability of means at \
+             least this far from the sim without a gap.",
             p_equals(p)
         )
     }
@@ -505,12 +509,12 @@ pub(super) fn no_region(diagnosis: &Diagnosis) -> &'static str {
     if diagnosis.interrupted {
         return "The diagnosis was interrupted before regions of the conditions were looked for.";
     }
-    "No region of the conditions stands out beyond what chance does in data without a gap."
+    "No region of the conditions differs by more than chance from data without a gap."
 }
 
 /// What the p-values of regions are.
-pub(super) const REGIONS: &str = "p: probability that data without a gap have a region as \
-     surprising anywhere. Share: of the excess of the squared residuals. Mean z: mean of the \
+pub(super) const REGIONS: &str = "p: probability of an equally surprising region anywhere in data \
+     without a gap. Share: share of the excess of the squared residuals. Mean z: mean of the \
      residuals over their standard uncertainties.";
 
 /// The letter of a region, which figures have too.
@@ -576,19 +580,22 @@ pub(super) fn shrinkage(diagnosis: &Diagnosis) -> Vec<String> {
     let mut said = Vec::new();
     if diagnosis.most_probable.kind == HypothesisKind::None {
         said.push(
-            "There is nothing to correct; before and after differ by the inputs alone.".to_owned(),
+            "There is nothing to correct: before and after differ only in the values of the \
+             inputs."
+                .to_owned(),
         );
     } else if !shrinkage.meaningful {
         said.push(
             "The gap is below 3 standard uncertainties of the data, so no removed fraction is \
-             stated: it would be a ratio of two noises."
+             stated: it would be a ratio of noise to noise."
                 .to_owned(),
         );
     }
     said.extend(shares(diagnosis));
     if diagnosis.most_probable.beside.is_some() {
         said.push(
-            "The correction is the effects with a discrepancy beside them, fitted to the data together."
+            "The correction consists of the effects and a discrepancy, fitted to the data \
+             together."
                 .to_owned(),
         );
     }
@@ -605,15 +612,15 @@ pub(super) fn shrinkage(diagnosis: &Diagnosis) -> Vec<String> {
             "the diagnosis was interrupted"
         };
         said.push(format!(
-            "Nothing was left out of the fit, since {because}: what is after the correction is too \
-             small."
+            "Nothing was left out of the fit, since {because}: the residuals after the correction \
+             are too small."
         ));
         return said;
     }
     said.push(format!(
-        "Every value was predicted by a fit that left its own block of conditions out ({} blocks). \
-         The root mean square of all outputs after lies between {} and {} standard uncertainties \
-         ({} interval).",
+        "Each value was predicted by a fit without its own block of conditions ({} blocks). After \
+         the correction the root mean square of all outputs is between {} and {} standard \
+         uncertainties ({} interval).",
         shrinkage.blocks,
         rounded(low, digits),
         rounded(high, digits),
@@ -629,7 +636,8 @@ pub(super) fn shrinkage(diagnosis: &Diagnosis) -> Vec<String> {
             String::new()
         };
         said.push(format!(
-            "The logarithm of the predictive density of what was left out rises by {}.{claim}",
+            "The logarithm of the predictive density of the left-out values increases by \
+             {}.{claim}",
             tenths(shrinkage.log_density_gain)
         ));
     }
@@ -653,9 +661,9 @@ fn without_range(diagnosis: &Diagnosis) -> Option<String> {
     let names: Vec<String> = named.map(|named| plain(&named.name)).collect();
     let first = names.first()?;
     Some(format!(
-        "No range is stated for {}, so that only the values of the data count as what can be set and \
-         proposals stay there. If it can be set to others, say so in the case, and they are tried: \
-         \"{first}\": {{..., \"range\": [lowest, highest]}}.",
+        "No range is stated for {}, so proposals use only the values of the data. If other values \
+         can be set, state the range in the case: \"{first}\": {{..., \"range\": [lowest, \
+         highest]}}.",
         names.join(", ")
     ))
 }
@@ -667,11 +675,14 @@ pub(super) fn run_at_verdict(diagnosis: &Diagnosis) -> Option<String> {
     let error = significant(run.error, 2);
     let residual = run.residual.map(|residual| {
         let residual = significant(residual, 3);
-        format!(" The data depart from it by {residual} standard uncertainties (root mean square).")
+        format!(
+            " The data differ from it by {residual} standard uncertainties (root mean \
+            square)."
+        )
     });
     Some(format!(
-        "The simulator itself was run with these parameters.{} What the {} runs tell of its outputs is off \
-         by {error} standard uncertainties there, the norm over all rows.",
+        "The simulator itself was run with these parameters.{} The prediction from the {} runs \
+         differs from this run by {error} standard uncertainties (norm over all rows).",
         residual.unwrap_or_default(),
         simulator.runs
     ))
@@ -681,8 +692,8 @@ pub(super) fn run_at_verdict(diagnosis: &Diagnosis) -> Option<String> {
 pub(super) fn next(diagnosis: &Diagnosis) -> Vec<String> {
     let next = &diagnosis.next;
     if diagnosis.simulator.is_some() {
-        let rows = "The rows of a simulator belong together, so that no single one is proposed: measure \
-                    another motion, or this one again.";
+        let rows = "The rows of a simulator belong together, so no single row is proposed: \
+                    measure another motion, or repeat this one.";
         return vec![rows.to_owned()];
     }
     let mut said = Vec::new();
@@ -692,13 +703,13 @@ pub(super) fn next(diagnosis: &Diagnosis) -> Vec<String> {
         let names = names.join("; ");
         said.push(if without_range.is_none() {
             format!(
-                "These are the same function of the conditions wherever they can be set, so that no \
-                 measurement of these outputs tells them apart: {names}."
+                "These hypotheses are the same function of all conditions that can be set, so no \
+                 measurement of these outputs distinguishes them: {names}."
             )
         } else {
             format!(
-                "These are the same at the conditions of the data, where no measurement of these \
-                 outputs tells them apart: {names}."
+                "These hypotheses are the same at the conditions of the data, where no \
+                 measurement of these outputs distinguishes them: {names}."
             )
         });
     }
@@ -708,18 +719,18 @@ pub(super) fn next(diagnosis: &Diagnosis) -> Vec<String> {
     let Some(best) = next.proposals.first() else {
         let open = next.entropy > OPEN;
         said.push(if open {
-            "No measurement of these outputs at these conditions is expected to teach anything; give \
-             the conditions a `range` if they can be set to other values."
+            "No measurement of these outputs at these conditions is expected to be informative; \
+             state the `range` of the conditions if other values can be set."
                 .to_owned()
         } else {
-            "No other hypothesis is probable enough to be worth a measurement against it.".to_owned()
+            "No other hypothesis is probable enough to justify a measurement.".to_owned()
         });
         return said;
     };
     let part = best.expected_entropy_loss / next.entropy;
     said.push(format!(
-        "Most is expected of this: {}. It takes {} of what is left open between all {} (the entropy \
-         of their probabilities, {} nats).",
+        "Most informative next step: {}. It is expected to remove {} of the uncertainty between \
+         all {} (entropy of their probabilities: {} nats).",
         proposal(diagnosis, best),
         percent_of(part),
         if next.composed > 0 { "hypotheses and composed effects" } else { "hypotheses" },
@@ -727,8 +738,8 @@ pub(super) fn next(diagnosis: &Diagnosis) -> Vec<String> {
     ));
     if part < LITTLE {
         said.push(
-            "That is little: where the hypotheses differ lies outside these conditions or below this \
-             noise."
+            "The gain is small: the hypotheses differ only outside these conditions or by less \
+             than this noise."
                 .to_owned(),
         );
     }
@@ -746,13 +757,12 @@ pub(super) fn next(diagnosis: &Diagnosis) -> Vec<String> {
         let among = if is_more {
             "its strongest rival"
         } else {
-            "the strongest of the others that are \
-             not it with more effects"
+            "the strongest hypothesis that does not contain it"
         };
         let [own, other] = [own.as_ref(), other.as_ref()].map(rival);
         if now >= 20.0 {
             said.push(format!(
-                "The odds of {own} against {among}, {other}, are {} to 1 already.",
+                "The odds of {own} against {among}, {other}, are already {} to 1.",
                 significant(now, 2)
             ));
             return said;
@@ -760,9 +770,13 @@ pub(super) fn next(diagnosis: &Diagnosis) -> Vec<String> {
         let fewest = next.proposals.iter().filter_map(|p| Some((p.count_for_20_to_1?, p)));
         said.push(match fewest.min_by_key(|(count, _)| *count) {
             Some((count, p)) => format!(
-                "Odds of 20 to 1 between {own} and {other}, whichever is true, are as likely as not \
-                 after {}: {}.",
-                if count == 1 { "one of these".to_owned() } else { format!("{count} of these") },
+                "A probability of 50 % of odds of 20 to 1 between {own} and {other}, whichever is \
+                 true, takes {}: {}.",
+                if count == 1 {
+                    "one measurement".to_owned()
+                } else {
+                    format!("{count} measurements")
+                },
                 place(diagnosis, p)
             ),
             None => format!(
@@ -809,10 +823,7 @@ pub(super) fn place(diagnosis: &Diagnosis, proposal: &ProposedMeasurement) -> St
         ProposalKind::Input { input, standard_uncertainty, stated } => {
             let [wanted, stated] =
                 [standard_uncertainty, stated].map(|u| in_unit(&significant(*u, 2), input));
-            format!(
-                "{} known to {wanted} instead of {stated} (standard uncertainty)",
-                plain(&input.name)
-            )
+            format!("reduce u({}) from {stated} to {wanted}", plain(&input.name))
         }
         ProposalKind::Output { output, conditions, .. } => {
             format!("{} of {}", at(&diagnosis.conditions, conditions), plain(&output.name))
@@ -841,8 +852,8 @@ pub(super) fn noise(diagnosis: &Diagnosis) -> Vec<String> {
             format!("Estimated noise of {name}: {size}.")
         } else {
             format!(
-                "Estimated noise of {name}: {size} at the sim's typical size, growing with the \
-                 power {} of it.",
+                "Estimated noise of {name}: {size} at the sim's typical value, proportional to \
+                 its power {}.",
                 rounded(estimated.power, -2)
             )
         })
@@ -858,7 +869,7 @@ pub fn note(note: &DiagnosisNote) -> String {
 /// What to bear in mind, without what stands beside the verdict and what the section on shrinkage says
 /// by itself.
 pub(super) fn notes(diagnosis: &Diagnosis) -> Vec<String> {
-    let elsewhere = ["small-gap", COPIED_ROWS];
+    let elsewhere = ["small-gap", COPIED_ROWS, INTERRUPTED];
     let notes = diagnosis.notes.iter().filter(|note| !elsewhere.contains(&note.code()));
     notes.map(|note| plain(&self::note(note))).collect()
 }

@@ -35,15 +35,15 @@ pub(super) fn of(observed: &ObservationReport<'_>) -> Document {
     }
     if all > MOST_FIGURES {
         document.text(format!(
-            "Figures of the first {MOST_FIGURES} of {all} records; the others are those of a recipe \
-             with fewer rows."
+            "Figures of the first {MOST_FIGURES} of {all} records; run a recipe with fewer rows \
+             for the others."
         ));
     }
     if !observed.warnings.is_empty() {
         document.section("Notes");
         document.blocks.push(Block::List(crate::words::lines(observed.warnings)));
     }
-    document.section("To repeat this");
+    document.section("Reproducing this result");
     let digests = &observed.provenance.files;
     let mut lines = vec![
         format!("gumption {}", env!("CARGO_PKG_VERSION")),

@@ -42,7 +42,7 @@ pub(super) fn inputs(report: &PlanReport<'_>) -> Sheet {
     }
     let why = |need: &InputNeed| match (need.fixed, need.needed) {
         (Some(why), _) => why.to_owned(),
-        (None, None) if need.readings_needed.is_none() => "not alone".to_owned(),
+        (None, None) if need.readings_needed.is_none() => "not sufficient alone".to_owned(),
         _ => String::new(),
     };
     sheet.text("", needs.iter().map(why));
@@ -75,7 +75,7 @@ pub(super) fn cheapest(report: &PlanReport<'_>, plan: &CheapestPlan) -> Sheet {
     let units = inputs.iter().map(|of| plain(report.unit(of.variable))).collect();
     sheet.units("unit", with(units, ""));
     let how = |of: &PlannedInput| match (of.readings, &of.offer) {
-        _ if of.to == of.from => "as it is".to_owned(),
+        _ if of.to == of.from => "unchanged".to_owned(),
         (Some(count), _) => format!("{count} readings"),
         (None, Some(offer)) if !offer.trim().is_empty() => plain(offer),
         _ => String::new(),

@@ -13,13 +13,12 @@ use gumption_engine::decimal::to_digits;
 use gumption_engine::model::Quantity;
 use gumption_engine::task::Task;
 
-pub(super) const EQUAL: &str = "Without a file of costs, halving any standard uncertainty counts as \
-    much as any other; a reading costs so much that three times as many in addition, which halve it, \
-    count the same.";
+pub(super) const EQUAL: &str = "Without a file of costs, halving any standard uncertainty costs \
+    1. Readings are priced so that quadrupling them, which halves u, also costs 1.";
 
-pub(super) const ALONE: &str = "What each quantity alone would have to become while all others stay \
-    as they are, by the law of propagation; - where even without its uncertainty the target is \
-    missed. Limits are rounded down.";
+pub(super) const ALONE: &str = "Required uncertainty of each quantity while all others are \
+    unchanged, by the law of propagation. -: target not reached even with u = 0. Limits are \
+    rounded down.";
 
 pub(super) fn title(report: &PlanReport<'_>) -> String {
     let title = plain(&report.task.title);
@@ -65,7 +64,7 @@ pub(super) fn target(report: &PlanReport<'_>) -> String {
     }
     if let Some(row) = report.task.rows.get(plan.row).filter(|_| report.task.swept) {
         let at = conditions_text(&report.task.model.conditions, &row.conditions);
-        let worst = if plan.target.share > 0.0 { "furthest above it" } else { "largest" };
+        let worst = if plan.target.share > 0.0 { "farthest above it" } else { "largest" };
         said += &format!(", {worst} at {at}");
     }
     said
@@ -84,16 +83,16 @@ pub fn worse_offers(task: &Task, costs: &Costs) -> Vec<String> {
             let of = |value: f64| in_unit(&exact(to_digits(value, 4)), &variable.unit);
             let hint = if variable.unit.has_name() {
                 format!(
-                    " Numbers without a unit are in {unit}; a number in another has it behind it, \
-                     written as `\"1.5 {unit}\"` is.",
+                    " Numbers without a unit are in {unit}; write a number in another unit with \
+                     its unit, as in `\"1.5 {unit}\"`.",
                     unit = unit_text(&variable.unit)
                 )
             } else {
                 String::new()
             };
             said.push(format!(
-                "The offer of {} for {name} (cost {}) is no better than what there is, {}, and helps \
-                 nothing.{hint}",
+                "The offer of {} for {name} (cost {}) is not better than the present value, \
+                 {}.{hint}",
                 of(offer.standard_uncertainty),
                 exact(offer.cost),
                 of(now)
@@ -113,8 +112,8 @@ pub(super) fn notes(report: &PlanReport<'_>) -> Vec<String> {
         && plan.figure * plan.target.share > plan.limit
     {
         said.push(
-            "The estimate is smaller than its uncertainty there, so a share of it says little: add a \
-             value to the target, `0.01 % + 2 uV`, or leave the row out."
+            "The estimate is smaller than its uncertainty there, so a share of it means little: \
+             add a value to the target, `0.01 % + 2 uV`, or leave the row out."
                 .to_owned(),
         );
     }
@@ -138,8 +137,8 @@ pub(super) fn notes(report: &PlanReport<'_>) -> Vec<String> {
     said.extend(plan.check.as_ref().and_then(|found| check(report, found)));
     if !plan.missed_rows.is_empty() {
         said.push(format!(
-            "The plan is that of the row furthest above its target; the target is missed in {} \
-             other rows ({}): plan them with their own conditions.",
+            "The plan is for the row farthest above its target. The target is missed in {} other \
+             rows ({}): plan them with their own conditions.",
             plan.missed_rows.len(),
             row_numbers(&plan.missed_rows)
         ));
@@ -161,13 +160,12 @@ pub fn excess_text(excess: &Excess, task: &Task, target: PlanTarget) -> String {
     let output = task.model.outputs.get(target.output).map(|output| &output.quantity);
     let without = value(output, &significant(excess.without, DIGITS));
     let mut said = format!(
-        "`{name}` makes the difference: the law of propagation does not see all that it does, and cannot plan it; without its uncertainty the trials give {without}"
+        "`{name}` is the cause: the law of propagation does not include its whole effect, so it \
+         cannot be planned. Without its uncertainty the trials give {without}"
     );
     if let Some((needed, variable)) = excess.needed.zip(variable) {
         let needed = in_unit(&at_most(needed), &variable.unit);
-        said += &format!(
-            ", and with a standard uncertainty of `{name}` of {needed} they come to the target"
-        );
+        said += &format!("; with u(`{name}`) = {needed} they reach the target");
     }
     said
 }
@@ -177,19 +175,20 @@ fn check(report: &PlanReport<'_>, found: &PlanCheck) -> Option<String> {
     let figure = value(report.output(), &significant(found.figure?, DIGITS));
     let of_excess = found.excess.as_ref().map(|excess| {
         let said = excess_text(excess, report.task, report.plan.target);
-        format!("the target is missed, and aiming lower does not help: {said}")
+        format!("the target is missed, and a lower target does not help: {said}")
     });
     let verdict = match found.holds {
         Some(false) if of_excess.is_some() => of_excess.as_deref().unwrap_or_default(),
-        Some(true) => "the target holds",
+        Some(true) => "the target is met",
         Some(false) if found.figure? <= report.plan.limit * widening(found.drawn_dof) => {
-            "the target is missed: standard uncertainties of inputs have few degrees of freedom, which \
-             makes what is drawn for them wider, so aim lower"
+            "the target is missed, because some inputs have few degrees of freedom and therefore \
+             wider t distributions; set a lower target"
         }
         Some(false) => {
-            "the target is missed: the model is not linear enough for this plan, so aim lower"
+            "the target is missed, because the model is not linear enough for this plan; set a \
+             lower target"
         }
-        None => "the target holds to within their scatter",
+        None => "the target is met within the scatter of the trials",
     };
     let of = if report.plan.target.expanded {
         "half the length of the coverage interval"
@@ -204,7 +203,7 @@ fn check(report: &PlanReport<'_>, found: &PlanCheck) -> Option<String> {
         let names: Vec<String> =
             found.stood_in.iter().map(|&variable| plain(report.name(variable))).collect();
         said += &format!(
-            " Drawn as normal or t, since their shapes have no width of their own: {}.",
+            " Drawn as normal or t, because their shapes have no separate width: {}.",
             names.join(", ")
         );
     }
@@ -222,19 +221,26 @@ pub(super) fn interval(report: &PlanReport<'_>, found: &PlannedInterval) -> Stri
     };
     let input = plain(report.name(drift.variable));
     let stated = time(exact(drift.stated));
-    let grows = format!("`{input}` is the drift of {stated} and grows {law}");
+    let grows = format!("`{input}` is the drift over {stated} and increases {law}");
     match found.longest {
-        None => format!("Calibration interval: {grows}; the target holds for as long as matters."),
+        None => format!(
+            "Calibration interval: {grows}; the target is met for every practical \
+            interval."
+        ),
         Some(0.0) => format!(
-            "Calibration interval: {grows}; the target does not hold even right after a calibration: \
+            "Calibration interval: {grows}; the target is missed even right after a calibration: \
              improve other inputs first."
         ),
         Some(longest) => {
             let u = found.standard_uncertainty.map_or_else(String::new, |u| {
-                format!(", when u({input}) = {} {}", at_most(u), plain(report.unit(drift.variable)))
+                format!(
+                    ", until u({input}) = {} {}",
+                    at_most(u),
+                    plain(report.unit(drift.variable))
+                )
             });
             format!(
-                "Calibration interval: {grows}; the target holds for {}{}.",
+                "Calibration interval: {grows}; the target is met for {}{}.",
                 time(at_most(longest)),
                 u.trim_end()
             )

@@ -21,19 +21,19 @@ fn degrees(region: &RegionEvaluation) -> Option<String> {
     match region.dof? {
         Dof::Infinite => None,
         Dof::Finite(_) if gum.ellipsoid_k.is_none() => Some(
-            "The law of propagation has no ellipsoid: the covariance matrix has too few degrees of freedom \
-             for as many outputs."
+            "The law of propagation has no ellipsoid: the covariance matrix has too few degrees \
+             of freedom for this number of outputs."
                 .to_owned(),
         ),
         Dof::Finite(dof) => Some(format!(
-            "The covariance matrix of the law of propagation has {}: its k of the ellipsoid is that of \
-             Hotelling's T^2, from an F distribution (JCGM 102, 5.3), and its k of the box that of t \
+            "The covariance matrix of the law of propagation has {}. The k of the ellipsoid is \
+             from Hotelling's T^2 (an F distribution; JCGM 102, 5.3), the k of the box from t \
              distributions.",
             degrees_of_freedom(&significant(dof, 3))
         )),
         Dof::Undefined => Some(
-            "The law of propagation has no factors: the degrees of freedom of correlated inputs are \
-             finite, and how far they hold together is not known."
+            "The law of propagation has no factors: the degrees of freedom of correlated inputs \
+             are finite, and the joint degrees of freedom are unknown."
                 .to_owned(),
         ),
     }
@@ -61,9 +61,9 @@ pub(super) fn sheet(region: &RegionEvaluation) -> Sheet {
 pub(super) fn sentences(task: &Task, region: &RegionEvaluation) -> Vec<String> {
     let percent = exact(to_position(100.0 * region.probability, -4));
     let mut said = vec![format!(
-        "With a probability of {percent} % all outputs lie together in the ellipsoid \
-         (y - x)' U^-1 (y - x) <= k^2, U being their covariance matrix, and with at least as much in the \
-         box of half-lengths k u (JCGM 102, 6.5)."
+        "All outputs are in the ellipsoid (y - x)' U^-1 (y - x) <= k^2 with a probability of \
+         {percent} %; U is their covariance matrix. They are in the box of half-lengths k u with \
+         at least this probability (JCGM 102, 6.5)."
     )];
     said.extend(degrees(region));
     match region.monte_carlo.as_ref().map(|found| &found.smallest) {
@@ -79,8 +79,8 @@ pub(super) fn sentences(task: &Task, region: &RegionEvaluation) -> Vec<String> {
             let unit =
                 if units.is_empty() { String::new() } else { format!(" {}", units.join("*")) };
             said.push(format!(
-                "The smallest region that holds as many trials has the volume {}{unit}, with a numerical \
-                 standard error of {}.",
+                "The smallest region with this share of the trials has the volume {}{unit}, with \
+                 a numerical standard error of {}.",
                 significant(smallest.volume, 3),
                 significant(smallest.error, 2),
             ));
@@ -93,13 +93,14 @@ pub(super) fn sentences(task: &Task, region: &RegionEvaluation) -> Vec<String> {
     if let Some(validation) = &region.validation {
         said.push(
             if validation.gum_valid {
-                "Estimates, standard uncertainties, the largest eigenvalue of the correlation matrix and \
-                 k of both methods agree within the numerical tolerance: the ellipsoid of the law of \
-                 propagation is valid here (JCGM 102, clause 8)."
+                "Estimates, standard uncertainties, the largest eigenvalue of the correlation \
+                 matrix and k of both methods agree within the numerical tolerance: the ellipsoid \
+                 of the law of propagation is validated (JCGM 102, clause 8)."
             } else {
-                "Estimates, standard uncertainties, the largest eigenvalue of the correlation matrix or \
-                 k of both methods differ by more than the numerical tolerance: the ellipsoid of the law \
-                 of propagation is not confirmed; take that of the trials (JCGM 102, clause 8)."
+                "Estimates, standard uncertainties, the largest eigenvalue of the correlation \
+                 matrix or k of both methods differ by more than the numerical tolerance: the \
+                 ellipsoid of the law of propagation is not validated; use the ellipsoid of the \
+                 trials (JCGM 102, clause 8)."
             }
             .to_owned(),
         );

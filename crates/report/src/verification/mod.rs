@@ -238,8 +238,8 @@ fn page(found: &[RecomputedExample]) -> Document {
     let mut page = Document { title, subtitle: vec![summary(found)], ..Document::default() };
     page.text(
         "Each published value is compared with what gumption computes from the example's model \
-         file: PASS where the difference is not above the tolerance, DIFF elsewhere. \
-         The command verify repeats this on any machine (ISO/IEC 17025, 7.11).",
+         file: PASS if the difference is within the tolerance, DIFF otherwise. The command verify \
+         repeats this on any machine (ISO/IEC 17025, 7.11).",
     );
     for example in found {
         page.section(&example.name);

@@ -12,21 +12,22 @@ const EVALUATION: Sentences = &[
     ("few-trials", "{trials} Versuche sind wenige für die Überdeckungswahrscheinlichkeit {probability}: JCGM \
         101, 7.2.2 rät zu mindestens {needed}"),
     ("correlations-rounded", "die angegebenen Korrelationskoeffizienten sind nur innerhalb ihrer Rundung \
-        möglich; in den Versuchen stehen die nächsten möglichen"),
-    ("correlations-rounded.output", "`{name}`: Die angegebenen Korrelationskoeffizienten lassen nach dem \
-        Fortpflanzungsgesetz keine Varianz oder eine unter null, die nächsten möglichen aber doch; die Angaben \
-        der Monte-Carlo-Methode sind zu nehmen oder die Koeffizienten mit mehr Stellen anzugeben"),
-    ("undefined-trials", "{count} von {trials} Versuchen sind nicht endlich und wurden weggelassen"),
-    ("gaussian-copula", "{names} werden durch eine Gauß-Copula gezogen, die so angepasst ist, dass sie ihre \
-        Verteilungen und die angegebenen Korrelationskoeffizienten haben; mehr sagen die Koeffizienten über \
-        ihre gemeinsame Verteilung nicht, so dass dies eine Annahme ist"),
+        möglich; in den Versuchen werden die nächsten möglichen verwendet"),
+    ("correlations-rounded.output", "`{name}`: Die angegebenen Korrelationskoeffizienten ergeben nach dem \
+        Fortpflanzungsgesetz keine positive Varianz, die nächsten möglichen aber doch; die Ergebnisse der \
+        Monte-Carlo-Methode sind zu verwenden oder die Koeffizienten mit mehr Stellen anzugeben"),
+    ("undefined-trials", "{count} von {trials} Versuchen haben kein endliches Ergebnis und wurden \
+        weggelassen"),
+    ("gaussian-copula", "{names} werden mit einer Gauß-Copula gezogen, die an ihre Verteilungen und die \
+        angegebenen Korrelationskoeffizienten angepasst ist. Ihre gemeinsame Verteilung ist darüber \
+        hinaus eine Annahme"),
     ("copula-adjusted", "eine Gauß-Copula gibt die angegebenen Korrelationskoeffizienten nur innerhalb ihrer \
         Rundung; in den Versuchen weichen sie um bis zu {difference} ab"),
     ("copula-adjusted.results", "eine Gauß-Copula gibt die Korrelationskoeffizienten dieser gespeicherten \
-        Ergebnisse nur ungefähr; in den Versuchen weichen sie um bis zu {difference} ab. Wo sich Größen eines \
-        Ergebnisses fast aufheben, ist das Ganze in einem Modell auszuwerten"),
-    ("trials-off", "`{name}`: Angaben der Versuche liegen weiter von denen ohne ihr Rauschen als {errors} \
-        numerische Standardfehler: {far}"),
+        Ergebnisse nur ungefähr; in den Versuchen weichen sie um bis zu {difference} ab. Wenn sich Größen \
+        eines Ergebnisses fast aufheben, ist alles in einem Modell auszuwerten"),
+    ("trials-off", "`{name}`: Ergebnisse der Versuche weichen um mehr als {errors} numerische \
+        Standardfehler von den Ergebnissen ohne Versuche ab: {far}"),
     ("raised-to-cmc", "die erweiterte Unsicherheit von `{name}` liegt unter der Messmöglichkeit (CMC) des \
         Laboratoriums von {cmc} und wird auf sie angehoben: Anzugeben ist {expanded}"),
     ("raised-to-cmc.rows", "die erweiterte Unsicherheit von `{name}` liegt in {count} von {of} Zeilen unter \
@@ -37,91 +38,97 @@ const EVALUATION: Sentences = &[
         Messmöglichkeit (CMC) des Laboratoriums und darf dort nicht angegeben werden (ILAC-P14)"),
     ("gum-undefined", "`{name}`{at}: Der Schätzwert oder ein Empfindlichkeitskoeffizient ist bei den \
         Schätzwerten der Eingangsgrößen nicht endlich, so dass es keine Auswertung nach dem GUM gibt"),
-    ("gum-dof-undefined", "`{name}`{at}: Korrelierte Eingangsgrößen haben endliche Freiheitsgrade, für die die \
-        Welch-Satterthwaite-Formel nicht gilt; es bleibt das Monte-Carlo-Intervall oder ein angegebener \
-        `coverage_factor`"),
-    ("gum-dof-undefined.stated", "`{name}`{at}: Korrelierte Eingangsgrößen haben endliche Freiheitsgrade, für \
-        die die Welch-Satterthwaite-Formel nicht gilt; der angegebene Faktor k = {k} bleibt, wie er ist"),
-    ("not-converged", "`{name}`{at}: Nach {trials} Versuchen sind die Angaben noch nicht auf die Toleranz \
-        {tolerance} stabil; wie weit sie es sind, sagen die numerischen Standardfehler"),
-    ("no-variance", "`{name}`{at}: Eine Eingangsgröße wird aus einer t-Verteilung mit {dof} Freiheitsgraden \
-        gezogen, die keine Varianz hat, so dass die Versuche keine Standardunsicherheit haben; die \
-        Überdeckungsintervalle gelten, und der Wert ist der Schätzwert nach dem Fortpflanzungsgesetz"),
+    ("gum-dof-undefined", "`{name}`{at}: Korrelierte Eingangsgrößen haben endliche Freiheitsgrade, für \
+        die die Welch-Satterthwaite-Formel nicht gilt; zu verwenden ist das Monte-Carlo-Intervall oder \
+        ein angegebener `coverage_factor`"),
+    ("gum-dof-undefined.stated", "`{name}`{at}: Korrelierte Eingangsgrößen haben endliche Freiheitsgrade, \
+        für die die Welch-Satterthwaite-Formel nicht gilt; der angegebene Faktor k = {k} wird unverändert \
+        verwendet"),
+    ("not-converged", "`{name}`{at}: Nach {trials} Versuchen sind die Ergebnisse noch nicht innerhalb der \
+        Toleranz {tolerance} stabil; siehe ihre numerischen Standardfehler"),
+    ("no-variance", "`{name}`{at}: Eine Eingangsgröße wird aus einer t-Verteilung mit {dof} \
+        Freiheitsgraden gezogen, die keine Varianz hat, so dass die Versuche keine Standardunsicherheit \
+        haben; die Überdeckungsintervalle sind nicht betroffen, und der Wert ist der Schätzwert nach dem \
+        Fortpflanzungsgesetz"),
     ("no-variance.of-model", "`{name}`{at}: Eine Eingangsgröße wird aus einer t-Verteilung mit {dof} \
-        Freiheitsgraden gezogen, die keine Varianz und durch dieses Modell keinen Erwartungswert hat, so dass \
-        die Versuche keinen Schätzwert und keine Standardunsicherheit haben; die Überdeckungsintervalle \
-        gelten, und der Wert ist der Schätzwert nach dem Fortpflanzungsgesetz"),
-    ("no-variance.one", "`{name}`{at}: Eine Eingangsgröße wird aus einer t-Verteilung mit {dof} Freiheitsgrad \
-        gezogen, die keinen Erwartungswert und keine Varianz hat, so dass die Versuche keinen Schätzwert und \
-        keine Standardunsicherheit haben; die Überdeckungsintervalle gelten, und der Wert ist der Schätzwert \
-        nach dem Fortpflanzungsgesetz"),
-    ("no-variance.no-expectation", "`{name}`{at}: Eine Eingangsgröße wird aus einer t-Verteilung mit {dof} \
-        Freiheitsgraden gezogen, die keinen Erwartungswert und keine Varianz hat, so dass die Versuche keinen \
-        Schätzwert und keine Standardunsicherheit haben; die Überdeckungsintervalle gelten, und der Wert ist \
-        der Schätzwert nach dem Fortpflanzungsgesetz"),
+        Freiheitsgraden gezogen, die keine Varianz und mit diesem Modell keinen Erwartungswert hat, so \
+        dass die Versuche keinen Schätzwert und keine Standardunsicherheit haben; die \
+        Überdeckungsintervalle sind nicht betroffen, und der Wert ist der Schätzwert nach dem \
+        Fortpflanzungsgesetz"),
+    ("no-variance.one", "`{name}`{at}: Eine Eingangsgröße wird aus einer t-Verteilung mit {dof} \
+        Freiheitsgrad gezogen, die keinen Erwartungswert und keine Varianz hat, so dass die Versuche \
+        keinen Schätzwert und keine Standardunsicherheit haben; die Überdeckungsintervalle sind nicht \
+        betroffen, und der Wert ist der Schätzwert nach dem Fortpflanzungsgesetz"),
+    ("no-variance.no-expectation", "`{name}`{at}: Eine Eingangsgröße wird aus einer t-Verteilung mit \
+        {dof} Freiheitsgraden gezogen, die keinen Erwartungswert und keine Varianz hat, so dass die \
+        Versuche keinen Schätzwert und keine Standardunsicherheit haben; die Überdeckungsintervalle sind \
+        nicht betroffen, und der Wert ist der Schätzwert nach dem Fortpflanzungsgesetz"),
     ("stated-by.gum", "`{name}`{at}: U wird nach dem Fortpflanzungsgesetz angegeben, wie `statement` verlangt"),
     ("stated-by.monte-carlo", "`{name}`{at}: U wird nach dem Intervall der Monte-Carlo-Versuche angegeben, wie \
         `statement` verlangt"),
-    ("stated-by.few-dof", "`{name}`{at}: U wird nach dem Fortpflanzungsgesetz angegeben, mit k aus den effektiven \
-        Freiheitsgraden (EA-4/02 M:2022): Mit unendlich vielen Freiheitsgraden weichen seine Grenzen um \
-        {difference} % von U von denen der Versuche ab. `--statement monte-carlo` gibt das Intervall der \
-        Versuche an"),
-    ("stated-by.near", "`{name}`{at}: U wird nach dem Fortpflanzungsgesetz angegeben: Seine Grenzen weichen um \
-        {difference} % von U von denen der Versuche ab, erlaubt sind {allowed} %. `--statement monte-carlo` gibt \
-        das Intervall der Versuche an"),
-    ("stated-by.shape", "`{name}`{at}: U wird nach dem Intervall der Versuche angegeben: Die Grenzen des \
-        Fortpflanzungsgesetzes weichen um {difference} % von U davon ab, mehr als {allowed} %, wegen der Form \
-        einer Verteilung oder eines nichtlinearen Modells. `--statement gum` gibt das Fortpflanzungsgesetz an"),
-    ("stated-by.shape-few-dof", "`{name}`{at}: U wird nach dem Intervall der Versuche angegeben: Auch mit unendlich \
-        vielen Freiheitsgraden weichen die Grenzen des Fortpflanzungsgesetzes um {difference} % von U davon ab, \
-        mehr als {allowed} %, wegen der Form einer Verteilung oder eines nichtlinearen Modells. `--statement gum` \
-        gibt das Fortpflanzungsgesetz an"),
+    ("stated-by.few-dof", "`{name}`{at}: U wird nach dem Fortpflanzungsgesetz angegeben, mit k aus den \
+        effektiven Freiheitsgraden (EA-4/02 M:2022): Mit unendlich vielen Freiheitsgraden weichen seine \
+        Endpunkte um {difference} % von U von den Endpunkten der Versuche ab. `--statement monte-carlo` \
+        gibt das Intervall der Versuche an"),
+    ("stated-by.near", "`{name}`{at}: U wird nach dem Fortpflanzungsgesetz angegeben: Seine Endpunkte \
+        weichen um {difference} % von U von den Endpunkten der Versuche ab, erlaubt sind {allowed} %. \
+        `--statement monte-carlo` gibt das Intervall der Versuche an"),
+    ("stated-by.shape", "`{name}`{at}: U wird nach dem Intervall der Versuche angegeben: Die Endpunkte \
+        des Fortpflanzungsgesetzes weichen um {difference} % von U davon ab, mehr als {allowed} %, wegen \
+        der Form einer Verteilung oder eines nichtlinearen Modells. `--statement gum` gibt das \
+        Fortpflanzungsgesetz an"),
+    ("stated-by.shape-few-dof", "`{name}`{at}: U wird nach dem Intervall der Versuche angegeben: Auch mit \
+        unendlich vielen Freiheitsgraden weichen die Endpunkte des Fortpflanzungsgesetzes um {difference} \
+        % von U davon ab, mehr als {allowed} %, wegen der Form einer Verteilung oder eines nichtlinearen \
+        Modells. `--statement gum` gibt das Fortpflanzungsgesetz an"),
     ("few-dof", "`{name}`{at}: Die Standardunsicherheit der Monte-Carlo-Methode {difference}, weil einige \
         Eingangsgrößen wenige Freiheitsgrade haben{dof}: Ihre t-Verteilungen haben eine größere \
         Standardabweichung, was {alone} ausmacht. {conclusion}"),
     ("non-linear", "`{name}`{at}: Die Standardunsicherheit der Monte-Carlo-Methode {difference}, weil das \
-        Modell über die Unsicherheiten seiner Eingangsgrößen nicht linear ist{few_dof}{second}. Die Angaben \
-        der Monte-Carlo-Methode sind zu nehmen"),
+        Modell über die Unsicherheiten seiner Eingangsgrößen nicht linear ist{few_dof}{second}. Die \
+        Ergebnisse der Monte-Carlo-Methode sind zu verwenden"),
     ("non-linear.second-order", "`{name}`{at}: {second}"),
-    ("non-linear.results", "`{name}`{at}: Die Standardunsicherheit der Monte-Carlo-Methode {difference} wegen \
-        gespeicherter Ergebnisse, deren Versuche eine andere Standardabweichung als ihre Standardunsicherheit \
-        haben ({results}), da ihre Modelle nicht linear sind. Die Angaben der Monte-Carlo-Methode sind zu \
-        nehmen"),
-    ("correlations-by-propagation", "`{name}`: Die Versuche haben keine Standardabweichung, die etwas \
-        bedeutet; die Korrelationskoeffizienten sind daher die des Fortpflanzungsgesetzes"),
-    ("correlations-by-propagation.none", "`{name}`: Die Versuche haben keine Standardabweichung, die etwas \
-        bedeutet, und es gibt keine Auswertung nach dem GUM; es gibt daher keine Korrelationskoeffizienten"),
+    ("non-linear.results", "`{name}`{at}: Die Standardunsicherheit der Monte-Carlo-Methode {difference}, \
+        weil die Versuche gespeicherter Ergebnisse eine andere Standardabweichung als ihre \
+        Standardunsicherheit haben ({results}): Ihre Modelle sind nicht linear. Die Ergebnisse der \
+        Monte-Carlo-Methode sind zu verwenden"),
+    ("correlations-by-propagation", "`{name}`: Die Standardabweichung der Versuche ist nicht \
+        aussagekräftig; die Korrelationskoeffizienten folgen daher aus dem Fortpflanzungsgesetz"),
+    ("correlations-by-propagation.none", "`{name}`: Die Standardabweichung der Versuche ist nicht \
+        aussagekräftig, und es gibt keine Auswertung nach dem GUM; es gibt daher keine \
+        Korrelationskoeffizienten"),
     ("conformity-by-propagation", "`{name}`: Ohne Versuche wird über die Toleranz nach dem \
-        Fortpflanzungsgesetz entschieden, wie bei einer Normal- oder t-Verteilung (JCGM 106, 7.2); ob das gilt, \
-        zeigen Versuche"),
-    ("heavy-tails", "`{name}`{at}: Weit außen liegende Versuche, von denen ein Lauf wenige oder keine hat, \
-        tragen die Momente, so dass die Versuche {missing} angeben (JCGM 101, 3.6, Anmerkung 1); Median und \
-        Überdeckungsintervalle gelten, und {value}"),
-    ("interval-of-extremes", "`{name}`{at}: {trials} Versuche sind für diese Überdeckungswahrscheinlichkeit so \
-        wenige, dass das Monte-Carlo-Intervall das der äußersten ist, das keinen numerischen Standardfehler \
-        hat; Abschnitt 8 bleibt unentschieden"),
-    ("result-cancellation", "`{name}`{at}: Größen eines gespeicherten Ergebnisses heben sich fast auf, und die \
-        {trials} Versuche, die das Ergebnis enthält, sagen nur auf etwa {left}, wie sie gemeinsam schwanken, \
-        bei einer Standardunsicherheit von {spread} in den Versuchen hier; das Ganze ist in einem Modell \
-        auszuwerten"),
-    ("copula-effect", "`{name}`{at}: Mit den Korrelationskoeffizienten, die die Gauß-Copula an Stelle derer \
-        der Eingangsgrößen gibt, ist die Standardunsicherheit in den Versuchen etwa {drawn}, nicht {linear}"),
-    ("phase-jumps", "`{name}`: {percent} der Versuche liegen eine Umdrehung von den anderen entfernt, jenseits \
-        des Schnitts einer Phase, so dass Mittelwert, Standardabweichung und Intervall der Versuche nichts \
-        bedeuten; `\"periodic\": {turn}` bei der Ergebnisgröße nimmt ihre Werte innerhalb einer halben \
-        Umdrehung um den Schätzwert"),
+        Fortpflanzungsgesetz mit einer Normal- oder t-Verteilung entschieden (JCGM 106, 7.2); Versuche \
+        zeigen, ob das ausreicht"),
+    ("heavy-tails", "`{name}`{at}: Die Momente hängen von seltenen extremen Versuchen ab, so dass die \
+        Versuche {missing} angeben (JCGM 101, 3.6, Anmerkung 1); Median und Überdeckungsintervalle sind \
+        nicht betroffen, und {value}"),
+    ("interval-of-extremes", "`{name}`{at}: Bei nur {trials} Versuchen sind die Endpunkte des \
+        Monte-Carlo-Intervalls für diese Überdeckungswahrscheinlichkeit die äußersten Versuche, ohne \
+        numerischen Standardfehler; Abschnitt 8 ist nicht entschieden"),
+    ("result-cancellation", "`{name}`{at}: Größen eines gespeicherten Ergebnisses heben sich fast auf, \
+        und die {trials} Versuche des Ergebnisses geben ihre Differenz nur auf etwa {left} an, bei einer \
+        Standardunsicherheit von {spread} in den Versuchen hier; alles ist in einem Modell auszuwerten"),
+    ("copula-effect", "`{name}`{at}: Mit den Korrelationskoeffizienten der Gauß-Copula statt der \
+        angegebenen ist die Standardunsicherheit in den Versuchen etwa {drawn}, nicht {linear}"),
+    ("phase-jumps", "`{name}`: {percent} der Versuche liegen eine Umdrehung von den anderen entfernt, \
+        jenseits des Schnitts einer Phase, so dass Mittelwert, Standardabweichung und Intervall der \
+        Versuche nicht aussagekräftig sind; mit `\"periodic\": {turn}` bei der Ergebnisgröße bleiben ihre \
+        Werte innerhalb einer halben Umdrehung um den Schätzwert"),
     ("phase-jumps.apart", "`{name}`: {percent} der Versuche liegen etwa {size} von den anderen entfernt, \
-        jenseits eines Schnitts von `atan2`, einer Phase oder `mod`, so dass Mittelwert, Standardabweichung und \
-        Intervall der Versuche nichts bedeuten; wo so weit entfernte Werte dasselbe sind, nimmt dieser Abstand \
-        als `\"periodic\"` bei der Ergebnisgröße ihre Werte innerhalb seiner Hälfte um den Schätzwert"),
+        jenseits eines Schnitts von `atan2`, einer Phase oder `mod`, so dass Mittelwert, \
+        Standardabweichung und Intervall der Versuche nicht aussagekräftig sind; wenn Werte in diesem \
+        Abstand gleichwertig sind, ist der Abstand als `\"periodic\"` bei der Ergebnisgröße anzugeben, so \
+        dass ihre Werte innerhalb des halben Abstands um den Schätzwert bleiben"),
     ("result-few-trials", "`{name}`{at}: Gespeicherte Ergebnisse aus wenigen Versuchen ({results}) lassen \
-        Angaben unsicher, wie viele Versuche hier auch gemacht werden: {errors} (je ein numerischer \
+        Ergebnisse unsicher, unabhängig von der Zahl der Versuche hier: {errors} (je ein numerischer \
         Standardfehler); diese Ergebnisse sind mit mehr Versuchen zu speichern"),
     ("double-precision", "`{name}`: Zahlen doppelter Genauigkeit mit 16 Stellen lassen {undetermined} von \
         `{input}` unbestimmt, {share} % der Standardunsicherheit: Die Größe ist {estimate} mit der \
-        Standardunsicherheit {uncertainty}; anzugeben ist der Unterschied zu einem Bezugswert"),
+        Standardunsicherheit {uncertainty}; als Eingangsgröße ist der Unterschied zu einem Bezugswert zu \
+        verwenden"),
     ("underflow", "`{name}`: Ein Produkt, ein Quotient oder eine Potenz der Gleichungen liegt unter der \
-        kleinsten Zahl doppelter Genauigkeit, 2,2e-308, und zählt weniger, als es ist; zu wählen sind \
+        kleinsten Zahl doppelter Genauigkeit, 2,2e-308, und ist im Ergebnis zu klein; zu wählen sind \
         Einheiten von der Größe der Messgrößen"),
 ];
 
@@ -174,9 +181,9 @@ const FORMULAS: Sentences = &[
     ("radians-of-turns.inverse", "`{name}` ist durch etwas geteilt, das Umdrehungen zählt, und wird in \
         `{unit}` je Radiant angegeben; ist es je Umdrehung gemeint, ist `...*[rev]` zu schreiben"),
     ("radians-of-turns.product", "`{formula}` multipliziert mit Radiant, 2*pi je Umdrehung, denn Formeln \
-        haben in Radiant, was in Umdrehungen angegeben ist; mit Umdrehungen ist es `{formula}/[rev]`"),
-    ("rate-of-turns", "`{name}` gilt als Kreisfrequenz, von der 2*pi Radiant eine Umdrehung sind, denn \
-        nichts sagt, dass es Umdrehungen zählt; wenn es das tut, ist `...*[rev]` zu schreiben oder die \
+        rechnen Umdrehungen in Radiant um; mit Umdrehungen ist es `{formula}/[rev]`"),
+    ("rate-of-turns", "`{name}` gilt als Kreisfrequenz mit 2*pi Radiant je Umdrehung, denn es ist nicht \
+        angegeben, dass es Umdrehungen zählt; wenn es das tut, ist `...*[rev]` zu schreiben oder die \
         Einheit `1/min` anzugeben"),
     ("result-converted-twice", "`{formula}` rechnet in {unit} um, und {what} in {unit} noch einmal: Formeln \
         rechnen mit {computed}; der Faktor entfällt{or_plain}"),
@@ -188,11 +195,11 @@ const FORMULAS: Sentences = &[
     ("quantity-converted-twice.product", "`{formula}` hat{with} den Faktor {factor}, der aus den Einheiten \
         der Größen in kohärente SI-Einheiten umrechnet, in denen Formeln sie schon haben; der Faktor \
         entfällt, oder er ist eine eigene Eingangsgröße, wenn er nichts umrechnet{or_turns}"),
-    ("unit-left-out", "`{formula}` hat keine Einheit, so dass Formeln die Zahlen als bloße nehmen, von denen \
-        1 gleich {one} {unit} ist, neben `{beside}` in {unit}; anzugeben ist die Einheit, `{unit}` oder \
-        `{plain}`"),
-    ("unit-left-out.output", "`{formula}` hat keine Einheit, so dass Formeln die Zahlen als bloße nehmen, \
-        von denen 1 gleich {one} {unit} ist, worin die Ausgangsgröße angegeben wird; anzugeben ist die \
+    ("unit-left-out", "`{formula}` hat keine Einheit, so dass Formeln die Zahlen als bloße Zahlen \
+        verwenden (1 ist {one} {unit}), neben `{beside}` in {unit}; anzugeben ist die Einheit, `{unit}` \
+        oder `{plain}`"),
+    ("unit-left-out.output", "`{formula}` hat keine Einheit, so dass Formeln die Zahlen als bloße Zahlen \
+        verwenden (1 ist {one} {unit}), und die Ergebnisgröße wird in {unit} angegeben; anzugeben ist die \
         Einheit, `{unit}` oder `{plain}`"),
     ("level-as-number", "`{name}` ist ein Pegel und wird als Zahl der Dezibel angegeben, wie Formeln sie \
         rechnen; die Einheit `dB` oder `Np` ist anzugeben"),
@@ -202,9 +209,9 @@ const FORMULAS: Sentences = &[
     ("celsius-as-kelvin", "`{name}` ist nach der Einheit eines Koeffizienten eine Zahl von Grad Celsius und \
         wird in {unit} als Differenz angegeben; kelvin(...) steht für eine thermodynamische Temperatur, oder \
         sie ist in degC anzugeben"),
-    ("difference-in-degrees", "`{name}` ist eine Differenz von Temperaturen und wird in {unit} angegeben, so \
-        dass alles, was sie weiter verwendet, sie für eine Temperatur nimmt; sie ist in K anzugeben, oder, \
-        wo eine Korrektion von einer Temperatur abgezogen wird, die Korrektion in K"),
+    ("difference-in-degrees", "`{name}` ist eine Differenz von Temperaturen und wird in {unit} angegeben, \
+        so dass alles Weitere sie als Temperatur liest; sie ist in K anzugeben, oder, wenn eine \
+        Korrektion von einer Temperatur abgezogen wird, die Korrektion in K"),
     ("picohenry", "die Einheit `pH` von `{name}` ist das Pikohenry; ein pH-Wert ist eine Zahl mit der \
         Einheit `1`"),
     ("imaginary-unit", "`i` ist in den Formeln dieser Datei die Größe dieses Namens und nicht die imaginäre \
@@ -216,23 +223,24 @@ const FORMULAS: Sentences = &[
 /// Facts about models, tables, certificates and other files.
 #[rustfmt::skip]
 const FILES: Sentences = &[
-    ("placeholder-about", "`about` von `{name}` hat noch den Text einer neuen Datei, \"{about}\", und \
-        Kalibrierscheine drucken ihn: Angeben, woher die Größe bekannt ist, oder den Schlüssel weglassen"),
+    ("placeholder-about", "`about` von `{name}` ist noch der Text einer neuen Datei, \"{about}\", und \
+        Kalibrierscheine drucken ihn: Die Quelle der Größe ist anzugeben oder der Schlüssel wegzulassen"),
     ("units-not-checked", "Einheiten werden nicht geprüft: Die Formeln rechnen mit den Zahlen in den \
         angegebenen Einheiten ({quantities}{more})"),
     ("units-not-checked.plain", "Einheiten werden nicht geprüft: Jede Größe ist eine bloße Zahl"),
-    ("units-not-checked-changed", "DIESES ERGEBNIS PRÜFEN: {numbers}. Frühere Versionen rechneten sie erst \
-        in SI-Einheiten um, etwa `{name}` aus {unit}, und gaben für diese Datei andere Ergebnisse. Sind die \
-        Formeln für die angegebenen Einheiten geschrieben, so stimmen sie jetzt: \"format\": 2 sagt es. Sind \
-        sie für SI-Einheiten geschrieben, so sind die Größen in SI-Einheiten anzugeben"),
+    ("units-not-checked-changed", "DIESES ERGEBNIS PRÜFEN: {numbers}. Frühere Versionen rechneten sie \
+        erst in SI-Einheiten um, etwa `{name}` aus {unit}, und gaben für diese Datei andere Ergebnisse. \
+        Sind die Formeln für die angegebenen Einheiten geschrieben, so ist dieses Ergebnis richtig: \
+        Anzugeben ist \"format\": 2. Sind sie für SI-Einheiten geschrieben, so sind die Größen in \
+        SI-Einheiten anzugeben"),
     ("width-zero", "die Breite von `{of}` folgt ihrem Schätzwert und wird{rows} 0; dort ist sie eine \
         Konstante"),
     ("share-of-zero", "der Anteil vom Messwert in der Breite von `{name}` ist{rows} 0, wie ihr Schätzwert; \
         vom Wert einer anderen Größe wäre er `20 ppm of 10 V`"),
-    ("limits-moved", "die `limits` von `{name}` verschieben sich mit dem neuen Schätzwert; wo sie bleiben, \
-        wie bei einer Konzentration, die nicht negativ sein kann, steht `{name}.mean=...` für den Wert, \
-        bevor sie begrenzen"),
-    ("readings-replaced", "die Ablesungen von {names} sind die von `{file}`"),
+    ("limits-moved", "die `limits` von `{name}` verschieben sich mit dem neuen Schätzwert; wenn sie \
+        bleiben müssen, wie bei einer Konzentration, die nicht negativ sein kann, ist `{name}.mean=...` \
+        für den Wert vor der Begrenzung zu schreiben"),
+    ("readings-replaced", "die Ablesungen von {names} sind aus `{file}`"),
     ("readings-kept", "`{file}` hat keine Spalte für {names}: die Ablesungen des Modells bleiben"),
     ("readings-apart", "die Ablesungen von `{part}` haben den Mittelwert {mean}, mehr als drei seiner \
         Standardunsicherheiten von {estimate} entfernt, dem Schätzwert, der für `{name}` angegeben ist: Nur \
@@ -241,76 +249,76 @@ const FILES: Sentences = &[
         Schätzwert von `{name}`: zusammen {sum}; Anteile sind Abweichungen, um 0 herum"),
     ("component-result", "der Anteil `{part}` ist ein gespeichertes Ergebnis von {estimate}, von dem nur die \
         Abweichung davon zählt; eine Korrektion ist eine eigene Eingangsgröße, die eine Gleichung addiert"),
-    ("resolution-taken", "`{name}`: Die Streuung der Messwerte liegt unter dem, was die Auflösung offen \
-        lässt; dies steht an ihrer Stelle als Rechteckverteilung (JCGM 100, F.2.2.1)"),
+    ("resolution-taken", "`{name}`: Die Streuung der Messwerte liegt unter der Unsicherheit der \
+        Auflösung, die stattdessen als Rechteckverteilung verwendet wird (JCGM 100, F.2.2.1)"),
     ("no-scatter", "`{name}`: Alle Messwerte sind gleich und zeigen keine Streuung; sie sind eine Konstante \
         neben den anderen Komponenten, von denen eine die Auflösung sein muss"),
     ("nested-readings", "`{name}` ist der Mittelwert von {groups} Gruppen von Messwerten; die \
         Standardunsicherheit ist die der Gruppenmittel mit {dof} Freiheitsgraden (JCGM 100, H.5){within}"),
     ("dependent-readings", "`{name}`: Die {count} Messwerte sind nicht unabhängig: Jeder liegt nahe am \
-        vorigen (von-Neumann-Verhältnis {ratio}, 2 bei unabhängigen Messwerten; ein so kleines kommt bei \
-        diesen in höchstens 1 von 100 Fällen vor). s/sqrt(n) ist dann zu klein (JCGM 100, 4.2.7): Messwerte \
-        in größeren Abständen oder Mittelwerte von Gruppen helfen"),
-    ("dependent-readings.drift", "`{name}`: Die {count} Messwerte driften: Eine Gerade durch sie ändert sich \
-        vom ersten zum letzten um {change}; eine so steile kommt bei unabhängigen Messwerten in höchstens 1 \
-        von 100 Fällen vor. s/sqrt(n) gilt nur für unabhängige Messwerte (JCGM 100, 4.2.7): Die Drift ist zu \
-        korrigieren, oder es ist anzugeben, was sie übrig lässt"),
-    ("interpolated", "`{quantity}` nimmt Werte von kubischen Splines durch die {points} Punkte von `{file}` \
-        ({low} bis {high}); Geraden weichen auf halbem Weg zwischen ihnen um höchstens {difference} ab, was \
-        in keiner Unsicherheit steckt, wenn keine Eingangsgröße es angibt"),
+        vorigen (von-Neumann-Verhältnis {ratio}, 2 bei unabhängigen Messwerten; unabhängige Messwerte \
+        ergeben ein so kleines in höchstens 1 von 100 Fällen). s/sqrt(n) ist dann zu klein (JCGM 100, \
+        4.2.7): Messwerte in größeren Abständen oder Mittelwerte von Gruppen helfen"),
+    ("dependent-readings.drift", "`{name}`: Die {count} Messwerte driften: Eine Gerade durch sie ändert \
+        sich vom ersten zum letzten um {change}; unabhängige Messwerte ergeben eine so steile in \
+        höchstens 1 von 100 Fällen. s/sqrt(n) gilt nur für unabhängige Messwerte (JCGM 100, 4.2.7): Die \
+        Drift ist zu korrigieren und die verbleibende Unsicherheit anzugeben"),
+    ("interpolated", "`{quantity}` nimmt Werte von kubischen Splines durch die {points} Punkte von \
+        `{file}` ({low} bis {high}); Geraden weichen auf halbem Weg zwischen ihnen um höchstens \
+        {difference} ab; keine Unsicherheit enthält dies, wenn keine Eingangsgröße es angibt"),
     ("interpolated.linear", "`{quantity}` nimmt Werte von Geraden durch die {points} Punkte von `{file}` \
-        ({low} bis {high}); kubische Splines weichen auf halbem Weg zwischen ihnen um höchstens {difference} \
-        ab, was in keiner Unsicherheit steckt, wenn keine Eingangsgröße es angibt"),
+        ({low} bis {high}); kubische Splines weichen auf halbem Weg zwischen ihnen um höchstens \
+        {difference} ab; keine Unsicherheit enthält dies, wenn keine Eingangsgröße es angibt"),
     ("date-origin", "Datumsangaben sind Anzahlen von Tagen seit dem {origin}"),
     ("fit-not-valid", "die Punkte passen nicht zu `{name}`: Chi-Quadrat ist {chi2} mit {dof} \
-        Freiheitsgraden, über seinem 95-%-Quantil {limit}; die Form oder die angegebenen Unsicherheiten sind \
-        falsch"),
-    ("fit-units-not-checked", "in der Formel von `{name}` werden Einheiten nicht geprüft: Sie rechnet mit x \
-        in {x} und y in {y}, und ihre Parameter sind bloße Zahlen; die von `start` sind mit Einheiten \
-        anzugeben"),
-    ("extrapolation.fit", "`{name}` wird bei x = {x} verwendet, und die Punkte liegen zwischen {low} und {high}: \
-        Darüber hinaus sagt nichts, dass die Form gilt, und die angegebene Unsicherheit setzt es voraus"),
-    ("interval-uncertainty", "`{name}`: Wo `{file}` mit einem Überdeckungsintervall eine \
-        Standardunsicherheit angibt, wird diese genommen und nicht U geteilt durch k, deren Stellen gerundet \
-        sind"),
-    ("certificate-distribution", "`{name}`: `{file}` nennt die Verteilung `{called}`, die hier nicht bekannt \
-        ist; genommen wird eine Normalverteilung mit der angegebenen Standardunsicherheit"),
+        Freiheitsgraden, über seinem 95-%-Quantil {limit}; die Form oder die angegebenen Unsicherheiten \
+        sind nicht richtig"),
+    ("fit-units-not-checked", "in der Formel von `{name}` werden Einheiten nicht geprüft: Sie rechnet mit \
+        x in {x} und y in {y}, und ihre Parameter sind bloße Zahlen; die Parameter von `start` sind mit \
+        Einheiten anzugeben"),
+    ("extrapolation.fit", "`{name}` wird bei x = {x} verwendet, außerhalb der Punkte von {low} bis \
+        {high}: Die angegebene Unsicherheit setzt voraus, dass die Form dort richtig ist"),
+    ("interval-uncertainty", "`{name}`: Wenn `{file}` mit einem Überdeckungsintervall eine \
+        Standardunsicherheit angibt, wird diese statt U/k verwendet, dessen Stellen gerundet sind"),
+    ("certificate-distribution", "`{name}`: `{file}` nennt die Verteilung `{called}`, die unbekannt ist; \
+        verwendet wird eine Normalverteilung mit der angegebenen Standardunsicherheit"),
     ("certificate-difference", "`{name}`: `{file}` gibt eine Differenz von Temperaturen an, etwa eine \
-        Abweichung oder eine Korrektion, die in K genommen wird; ist es eine Temperatur, sagt es \
-        `\"difference\": false`"),
+        Abweichung oder eine Korrektion, die in K gelesen wird; für eine Temperatur ist `\"difference\": \
+        false` anzugeben"),
     ("certificate-exact", "`{name}`: `{file}` gibt für diesen Wert keine Unsicherheit an, so dass er als \
-        genau gilt; eine, die in einem Text oder bei einer anderen Größe steht, ist in der Modelldatei \
+        genau gilt; eine Unsicherheit aus einem Text oder von einer anderen Größe ist in der Modelldatei \
         anzugeben"),
     ("certificate-before-adjustment", "`{name}`: Nach seinem Status in `{file}` wurde der Wert vor einer \
-        Justierung oder Reparatur ermittelt; was danach gilt, steht an anderer Stelle, wenn der \
-        Kalibrierschein es hat (`gumption dcc`)"),
-    ("certificate-asymmetric", "`{name}`: `{file}` gibt ein Überdeckungsintervall an, das nicht symmetrisch \
-        um den Wert liegt; genommen werden der Wert und die Standardunsicherheit und nichts von der \
+        Justierung oder Reparatur ermittelt; zu verwenden ist der Wert danach, wenn der Kalibrierschein \
+        ihn enthält (`gumption dcc`)"),
+    ("certificate-asymmetric", "`{name}`: `{file}` gibt ein Überdeckungsintervall an, das nicht \
+        symmetrisch um den Wert liegt; verwendet werden der Wert und die Standardunsicherheit, ohne die \
         Asymmetrie"),
     ("certificate-correlation", "Korrelationskoeffizienten zwischen Ergebnissen eines Kalibrierscheins \
         bleiben erhalten: {pairs}"),
-    ("certificate-correlation-moved", "Korrelationskoeffizienten eines Kalibrierscheins, die seine \
-        Ergebnisse mit den Verteilungen, mit denen sie gelesen werden, nicht haben können, sind die nächsten \
-        möglichen: {pairs}"),
+    ("certificate-correlation-moved", "Korrelationskoeffizienten eines Kalibrierscheins, die für die \
+        Verteilungen seiner Ergebnisse unmöglich sind, werden durch die nächsten möglichen ersetzt: \
+        {pairs}"),
     ("correlation-with-constant", "die Korrelation von `{first}` und `{second}` hat keine Wirkung, denn \
         `{constant}` hat keine Unsicherheit"),
     ("result-correlation", "die Korrelation gespeicherter Ergebnisse bleibt erhalten: {pairs}"),
     ("result-dependence-unknown", "`{first}` und `{second}` hängen vielleicht voneinander ab, weil ihre \
         Ergebnisse auf dieselbe Modelldatei zurückgehen; da eine der Größen keine endlichen \
-        Empfindlichkeitskoeffizienten hat, ist die Abhängigkeit nicht zu sagen; sie werden als unabhängig \
-        genommen"),
-    ("result-inputs-differ", "Ergebnisse einer Modelldatei, die eine Eingangsgröße für verschiedene Größen \
-        nahmen, sind in ihr unabhängig: {pairs}; ist es eine Größe, sind die Ergebnisse in einem Modell \
-        auszuwerten, oder ihre Korrelation ist anzugeben"),
+        Empfindlichkeitskoeffizienten hat, ist die Abhängigkeit unbekannt; sie werden als unabhängig \
+        verwendet"),
+    ("result-inputs-differ", "Ergebnisse einer Modelldatei mit verschiedenen Größen für eine \
+        Eingangsgröße sind in ihr unabhängig: {pairs}; ist es eine Größe, sind die Ergebnisse in einem \
+        Modell auszuwerten, oder ihre Korrelation ist anzugeben"),
     ("result-without-ranks", "von {pairs} sind nur die Korrelationskoeffizienten bekannt, nicht wie sie \
         gemeinsam schwanken, weil ihr Ergebnis von einer älteren Version gespeichert wurde; es ist neu zu \
         speichern"),
-    ("result-without-digest", "`{file}` hat keine Prüfsumme seiner selbst, wie Dateien älterer Versionen: Ob \
-        es seit dem Speichern geändert wurde, ist nicht zu sagen"),
-    ("result-changed", "`{file}` wurde seit dem Speichern geändert{parts} und wird dennoch genommen"),
-    ("counted-twice", "`{name}` hat den Namen und die Werte einer Eingangsgröße, aus der das Ergebnis \
-        `{result}` ermittelt wurde, und gilt als unabhängig davon; sind sie eine Größe, sind beide in einem \
-        Modell auszuwerten, oder ihre Korrelation ist anzugeben"),
+    ("result-without-digest", "`{file}` hat keine Prüfsumme, wie Dateien älterer Versionen: Ob die Datei \
+        seit dem Speichern geändert wurde, ist unbekannt"),
+    ("result-changed", "`{file}` wurde seit dem Speichern geändert{parts} und wird so verwendet, wie es \
+        jetzt ist"),
+    ("counted-twice", "`{name}` hat den Namen und die Werte einer Eingangsgröße des Ergebnisses \
+        `{result}` und gilt als unabhängig davon; sind sie eine Größe, sind beide in einem Modell \
+        auszuwerten, oder ihre Korrelation ist anzugeben"),
     ("counted-twice.certificate", "`{name}` ist ein Wert eines Kalibrierscheins, aus dem auch das Ergebnis \
         `{result}` ermittelt wurde, und gilt als unabhängig davon; beide sind in einem Modell auszuwerten, \
         oder ihre Korrelation ist anzugeben"),
@@ -350,14 +358,14 @@ const FILES: Sentences = &[
 /// Facts about recordings.
 #[rustfmt::skip]
 const SIGNALS: Sentences = &[
-    ("preamble", "`{name}`: Zeile {first} steht über der Kopfzeile in Zeile {header} und wird nicht gelesen"),
-    ("preamble.lines", "`{name}`: Zeilen {first} bis {last} stehen über der Kopfzeile in Zeile {header} und \
+    ("preamble", "`{name}`: Zeile {first} ist über der Kopfzeile in Zeile {header} und wird nicht gelesen"),
+    ("preamble.lines", "`{name}`: Zeilen {first} bis {last} sind über der Kopfzeile in Zeile {header} und \
         werden nicht gelesen"),
     ("uneven-instants", "`{name}`: Die Zeitpunkte der Zeitspalte streuen um {percent} % des Abtastintervalls \
         (Effektivwert) um gleiche Abstände; wenn wirklich dann abgetastet wurde, ist es als `jitter` anzugeben"),
     ("sampling-rates-differ", "`{name}`: Das Rezept gibt eine Abtastrate von {stated} Hz an, aber {whose} \
-        {found} Hz; die des Rezepts wird verwendet, so dass die Frequenzen das {times}-Fache der Angabe der \
-        Datei sind; wo die Datei stimmt, ist `sampling_rate` wegzulassen"),
+        {found} Hz; die Rate des Rezepts wird verwendet, so dass die Frequenzen das {times}-Fache der \
+        Frequenzen der Datei sind; wenn die Datei richtig ist, ist `sampling_rate` wegzulassen"),
     ("flat-channel", "`{name}`, Kanal `{channel}`: alle Werte sind {value}"),
     ("saturated", "`{name}`, {at}: {count} von {of} Werten sind {value}, der {end} der Aufzeichnung, und \
         {next} der ihm nächste; der Kanal kann übersteuert sein"),
@@ -398,10 +406,11 @@ const SIGNALS: Sentences = &[
     ("short-record.white-before-steps", "`{name}`: Vor den Schritten ist die Aufzeichnung zu kurz, um weißes \
         Rauschen von Rauschen mit Gedächtnis zu unterscheiden; die Standardunsicherheiten setzen weißes \
         Rauschen voraus, das die Schritte durchläuft, und sind vielleicht zu klein"),
-    ("short-record.suspected", "`{name}`: Die Residuen sind vielleicht korreliert, wofür die Aufzeichnung zu \
-        kurz ist (Koeffizient {coefficient} bei der Verschiebung 1); {way}"),
-    ("short-record.before-steps", "`{name}`: Vor den Schritten sind die Residuen vielleicht korreliert, wofür \
-        die Aufzeichnung zu kurz ist (Koeffizient {coefficient} bei der Verschiebung 1); {way}"),
+    ("short-record.suspected", "`{name}`: Die Residuen sind vielleicht korreliert; die Aufzeichnung ist \
+        zu kurz, um das zu entscheiden (Koeffizient {coefficient} bei der Verschiebung 1); {way}"),
+    ("short-record.before-steps", "`{name}`: Vor den Schritten sind die Residuen vielleicht korreliert; \
+        die Aufzeichnung ist zu kurz, um das zu entscheiden (Koeffizient {coefficient} bei der \
+        Verschiebung 1); {way}"),
     ("found-tone", "`{name}`: Etwas schwingt, das das Rezept nicht nennt, bei {tones}; es wird zusammen mit \
         den genannten Frequenzen angepasst und zählt im Signal-Rausch-Verhältnis als Rauschen"),
     ("found-drift", "`{name}`: Der Pegel driftet über die Aufzeichnung um {range}; ein Polynom vom Grad \
@@ -409,25 +418,25 @@ const SIGNALS: Sentences = &[
         Aufzeichnung mit der Standardabweichung der Drift in seiner Unsicherheit, und die Drift zählt im \
         Signal-Rausch-Verhältnis als Rauschen"),
     ("tones-too-near", "`{name}`: Etwas schwingt innerhalb von {within} Hz (eins durch die Länge der \
-        Aufzeichnung) um eine genannte Frequenz, oder die Schwingung bei dieser Frequenz wächst, klingt ab \
-        oder wandert; diese Aufzeichnung kann beides nicht unterscheiden, Amplitude und Phase gehören zu \
-        beidem zusammen, und nur eine längere Aufzeichnung sagt mehr"),
-    ("wandering-level", "`{name}`: Der Pegel wandert und kehrt innerhalb der Aufzeichnung nicht zurück; die \
-        Unsicherheit des Offsets bezieht sich auf den ersten Wert der Aufzeichnung. Eine stetige Drift, die \
-        kein Rauschen ist, verfälscht Amplituden und Phasen mehr, als deren Unsicherheiten sagen: Der Schritt \
-        `remove-trend` entfernt eine Gerade"),
-    ("wandering-level.flicker", "`{name}`: Das Rauschen wächst zu den tiefsten Frequenzen der Aufzeichnung \
-        hin, wie es 1/f-Rauschen tut, das keinen eigenen Pegel hat; die Unsicherheit des Offsets bezieht sich \
+        Aufzeichnung) um eine genannte Frequenz, oder die Schwingung bei dieser Frequenz wächst, klingt \
+        ab oder wandert; diese Aufzeichnung kann beides nicht trennen, und Amplitude und Phase gehören zu \
+        beidem zusammen; eine längere Aufzeichnung kann es"),
+    ("wandering-level", "`{name}`: Der Pegel wandert und kehrt innerhalb der Aufzeichnung nicht zurück; \
+        die Unsicherheit des Offsets bezieht sich auf den ersten Wert der Aufzeichnung. Eine stetige \
+        Drift, die kein Rauschen ist, verändert Amplituden und Phasen um mehr als deren Unsicherheiten: \
+        Der Schritt `remove-trend` entfernt eine Gerade"),
+    ("wandering-level.flicker", "`{name}`: Das Rauschen wächst zu den tiefsten Frequenzen der \
+        Aufzeichnung hin, wie 1/f-Rauschen, ohne eigenen Pegel; die Unsicherheit des Offsets bezieht sich \
         auf den Mittelwert einer zehnmal so langen Aufzeichnung"),
     ("looks-quantized", "`{name}`: Es ist keine Auflösung angegeben, doch die Werte sind Vielfache von {step}; \
         dies gilt als Auflösung"),
     ("looks-quantized.finer", "`{name}`: Es ist eine feinere Auflösung angegeben, doch die Werte sind \
         Vielfache von {step}; dies gilt als Auflösung"),
-    ("coherent-sampling", "`{name}`: Die {samples} Abtastwerte fallen auf {phases} verschiedene Phasen der \
-        Schwingung, und das Rauschen ist zu klein, um die Rundung zu verwischen, so dass sie sich nur über \
-        diese ausmittelt"),
-    ("common-noise", "`{name}`: Das Rauschen und das der Referenz haben etwas gemeinsam (die Abweichungen der \
-        beiden Phasen sind korreliert, {coefficient}); die Unsicherheit der Phase trägt dem Rechnung"),
+    ("coherent-sampling", "`{name}`: Die {samples} Abtastwerte fallen auf {phases} verschiedene Phasen \
+        der Schwingung, und das Rauschen ist zu klein, um die Rundung zu verwischen, so dass sie sich nur \
+        über diese Phasen ausmittelt"),
+    ("common-noise", "`{name}`: Das Rauschen ist mit dem Rauschen der Referenz korreliert (Koeffizient \
+        der beiden Phasen: {coefficient}); die Unsicherheit der Phase enthält dies"),
     ("frequency-differs", "`{name}`: Zur Aufzeichnung passt eine Frequenz, die um {by} Hz von {frequency} Hz \
         abweicht, mehr, als die Unsicherheiten zulassen; die Abtastrate ist zu prüfen oder die Frequenz \
         schätzen zu lassen"),
@@ -436,166 +445,169 @@ const SIGNALS: Sentences = &[
 /// Facts about a diagnosis.
 #[rustfmt::skip]
 const GAP: Sentences = &[
-    ("interrupted", "Die Diagnose wurde abgebrochen; dies war bis dahin bekannt. Hypothesen fehlen vielleicht, \
-        ihre Wahrscheinlichkeiten sind grob, und was noch nicht begonnen war (anderes Rauschen, Bereiche, \
-        Kreuzvalidierung, die nächsten Messungen), ist weggelassen"),
+    ("interrupted", "Die Diagnose wurde abgebrochen; dies ist der Stand bei der Unterbrechung. Hypothesen \
+        fehlen vielleicht, und ihre Wahrscheinlichkeiten sind grob. Nicht begonnene Teile (anderes \
+        Rauschen, Bereiche, Kreuzvalidierung, nächste Messungen) sind weggelassen"),
     ("estimated-noise", "Das Rauschen von Ergebnisgrößen ohne angegebene Unsicherheiten ist aus wiederholten \
         Zeilen und Residuen zusammen geschätzt"),
-    ("estimated-noise.from-residuals", "Es gibt weder angegebene Unsicherheiten noch wiederholte Zeilen; das \
-        Rauschen ist daher aus den Residuen selbst geschätzt: Eine Abweichung, die wie Rauschen aussieht, ist \
-        nicht davon zu unterscheiden, und der Chi-Quadrat-Test sagt nichts"),
-    ("resolution", "Die Werte von {name} sind auf {resolution} gerundet, gröber als ihr Rauschen: Was das \
-        verändert haben kann, zählt als Standardunsicherheit von {deviation}, dieselbe für gleiche Werte unter \
-        gleichen Bedingungen"),
-    ("many-settings", "Was von {name} bleibt, ist in den Zeilen jeder Einstellung ähnlich, als hätten sie eine \
-        gemeinsame Abweichung vom etwa {ratio}-Fachen des Rauschens einer Zeile. Solche Abweichungen werden \
-        bis zu {most} Einstellungen mal Ergebnisgrößen abgewogen, und hier sind es {errors}: Anzugeben ist \
-        eine Eingangsgröße, die für jede Einstellung einen Wert hat (`per`), oder die Mittelwerte der \
-        Einstellungen mit ihren Unsicherheiten"),
-    ("unit-slip", "Die Werte von {name} sind {rows} etwa das {ratio}-Fache dessen, was die Simulation sagt: \
-        {cause} ergibt einen solchen Faktor; die Einheiten der Daten und der Simulation sind zu prüfen, bevor \
-        ein Effekt geglaubt wird"),
+    ("estimated-noise.from-residuals", "Es gibt weder angegebene Unsicherheiten noch wiederholte Zeilen; \
+        das Rauschen ist daher aus den Residuen selbst geschätzt: Eine Abweichung, die wie Rauschen \
+        aussieht, ist nicht davon zu unterscheiden, und der Chi-Quadrat-Test gibt keine Auskunft"),
+    ("resolution", "Die Werte von {name} sind auf {resolution} gerundet, gröber als ihr Rauschen: Die \
+        Rundung zählt als Standardunsicherheit von {deviation}, dieselbe für gleiche Werte unter gleichen \
+        Bedingungen"),
+    ("many-settings", "Die Residuen von {name} sind in den Zeilen jeder Einstellung ähnlich, als hätten \
+        diese eine gemeinsame Abweichung vom etwa {ratio}-Fachen des Rauschens einer Zeile. Abweichungen \
+        von Einstellungen werden für höchstens {most} Einstellungen mal Ergebnisgrößen geprüft; hier sind \
+        es {errors}. Anzugeben ist eine Eingangsgröße, die für jede Einstellung einen Wert hat (`per`), \
+        oder die Mittelwerte der Einstellungen mit ihren Unsicherheiten"),
+    ("unit-slip", "Die Werte von {name} sind {rows} etwa das {ratio}-Fache der Werte der Simulation: \
+        {cause} würde diesen Faktor erklären; die Einheiten der Daten und der Simulation sind zu prüfen, \
+        bevor ein Effekt angenommen wird"),
     ("far-input", "Die Eingangsgröße `{input}` allein würde die Daten erklären, wenn sie {distance} \
-        Standardunsicherheiten über ihrem Schätzwert läge{others}. Das ist keine Hypothese, weil \
-        Eingangsgrößen sind, was von ihnen angegeben ist: Zu prüfen ist, woher der Wert kommt und wie seine \
-        Unsicherheit ermittelt wurde"),
+        Standardunsicherheiten über ihrem Schätzwert läge{others}. Das ist keine Hypothese, weil die \
+        angegebenen Eingangsgrößen nicht in Frage stehen: Zu prüfen sind die Quelle des Werts und seine \
+        Unsicherheit"),
     ("far-input.below", "Die Eingangsgröße `{input}` allein würde die Daten erklären, wenn sie {distance} \
-        Standardunsicherheiten unter ihrem Schätzwert läge{others}. Das ist keine Hypothese, weil \
-        Eingangsgrößen sind, was von ihnen angegeben ist: Zu prüfen ist, woher der Wert kommt und wie seine \
-        Unsicherheit ermittelt wurde"),
+        Standardunsicherheiten unter ihrem Schätzwert läge{others}. Das ist keine Hypothese, weil die \
+        angegebenen Eingangsgrößen nicht in Frage stehen: Zu prüfen sind die Quelle des Werts und seine \
+        Unsicherheit"),
     ("whole-turns", "{far} von {count} Werten von {name} liegen mehr als eine halbe Umdrehung von der \
-        Simulation entfernt: Eine Ergebnisgröße, die sich nach einer Umdrehung wiederholt, hat `\"periodic\": \
-        {turn}`"),
-    ("whole-turns.jumps", "Was die Simulation von {name} übrig lässt, springt zwischen benachbarten \
-        Bedingungen um fast eine Umdrehung, und alle Werte liegen innerhalb einer Umdrehung: Eine \
-        Ergebnisgröße, die sich nach einer Umdrehung wiederholt, hat `\"periodic\": {turn}`"),
-    ("poor-integral", "Zwei unabhängige Integrale derselben Hypothese unterscheiden sich im Logarithmus der \
-        Evidenz um {apart}; die Wahrscheinlichkeiten sind Mittelwerte über diese Abweichung und deshalb \
+        Simulation entfernt: Bei einer periodischen Ergebnisgröße ist `\"periodic\": {turn}` anzugeben"),
+    ("whole-turns.jumps", "Die Residuen von {name} springen zwischen benachbarten Bedingungen um fast \
+        eine Umdrehung, und alle Werte liegen innerhalb einer Umdrehung: Bei einer periodischen \
+        Ergebnisgröße ist `\"periodic\": {turn}` anzugeben"),
+    ("poor-integral", "Zwei unabhängige Integrale derselben Hypothese unterscheiden sich im Logarithmus \
+        der Evidenz um {apart}; die Wahrscheinlichkeiten sind Mittelwerte über diese Abweichung und daher \
         weniger sicher"),
     ("poor-integral.few-draws", "Die Evidenz des Befundes beruht auf nur {draws} effektiven Ziehungen \
         (Standardfehler ihres Logarithmus {error}); die Wahrscheinlichkeiten sind Mittelwerte über diese \
-        Abweichung und deshalb weniger sicher"),
-    ("look-alikes", "Diese Daten können die Hypothesen in der Gruppe des Befundes nicht unterscheiden: Ihre \
-        Vorhersagen stimmen innerhalb der Unsicherheiten überein, und zwischen ihnen entscheidet das \
-        Vorwissen: ihre Wahrscheinlichkeiten und wie weit ihre Größen reichen können"),
+        Abweichung und daher weniger sicher"),
+    ("look-alikes", "Diese Daten können die Hypothesen in der Gruppe des Befundes nicht unterscheiden: \
+        Ihre Vorhersagen stimmen innerhalb der Unsicherheiten überein. Zwischen ihnen entscheiden nur \
+        ihre A-priori-Wahrscheinlichkeiten und die A-priori-Breiten ihrer Größen"),
     ("small-gap", "Die Lücke liegt unter 3 Standardunsicherheiten der Daten; der beseitigte Anteil wäre daher \
         ein Verhältnis zweier Rauschwerte und wird nicht angegeben"),
-    ("poor-fit", "Der Befund ist die beste der Hypothesen, lässt aber unter ausgelassenen Bedingungen ein \
-        Chi-Quadrat von {chi_square} je Wert übrig: Etwas fehlt noch"),
-    ("curved-sim", "Bei den Schätzwerten der Eingangsgrößen sind die Residuen {times}-mal so groß, wie das \
-        Fortpflanzungsgesetz zulässt, doch Werte innerhalb dessen, was von den Eingangsgrößen bekannt ist, \
-        erklären sie: Die Simulation ist dort in ihren Eingangsgrößen nicht linear"),
-    ("row-drift", "Was der Befund von `{name}` übrig lässt, driftet über die Zeilen, von der ersten bis zur \
-        letzten um das {change}-Fache der Standardabweichung, die sich für das Rauschen ergibt (so steil durch \
-        Zufall in einer von 10 000 Tabellen). Wurden die Zeilen in dieser Reihenfolge aufgenommen, so ändert \
-        sich etwas mit der Zeit: Anzugeben ist die Zeit als Bedingung oder ein Effekt, der driftet; ohne dies \
-        gefundene Größen sind Mittelwerte über die Zeilen"),
-    ("row-drift.best-hypothesis", "Was die beste Hypothese von `{name}` übrig lässt, driftet über die Zeilen, \
-        von der ersten bis zur letzten um das {change}-Fache der Standardabweichung, die sich für das Rauschen \
-        ergibt (so steil durch Zufall in einer von 10 000 Tabellen). Wurden die Zeilen in dieser Reihenfolge \
-        aufgenommen, so ändert sich etwas mit der Zeit: Anzugeben ist die Zeit als Bedingung oder ein Effekt, \
-        der driftet; ohne dies gefundene Größen sind Mittelwerte über die Zeilen"),
-    ("row-drift.memory", "Was von `{name}` bleibt, ändert sich langsam über die Zeilen: Benachbarte haben den \
-        Korrelationskoeffizienten {coefficient} (so groß durch Zufall in einer von 10 000 Tabellen). Wurden \
-        die Zeilen in dieser Reihenfolge aufgenommen, so ändert sich etwas mit der Zeit, und die angegebenen \
-        Unsicherheiten können richtig sein: Anzugeben ist die Zeit als Bedingung oder ein Effekt, der sich mit \
-        ihr ändert"),
+    ("poor-fit", "Der Befund ist die beste der Hypothesen, hat aber bei ausgelassenen Bedingungen ein \
+        Chi-Quadrat von {chi_square} je Wert: Etwas fehlt noch"),
+    ("curved-sim", "Bei den Schätzwerten der Eingangsgrößen sind die Residuen {times}-mal so groß, wie \
+        das Fortpflanzungsgesetz zulässt, doch andere Werte der Eingangsgrößen innerhalb ihrer \
+        Unsicherheiten erklären sie: Die Simulation ist dort in ihren Eingangsgrößen nicht linear"),
+    ("row-drift", "Die Residuen von `{name}` nach dem Befund driften über die Zeilen, von der ersten bis \
+        zur letzten um das {change}-Fache der Standardabweichung des Rauschens (durch Zufall in einer von \
+        10 000 Tabellen). Wurden die Zeilen in dieser Reihenfolge aufgenommen, so ändert sich etwas mit \
+        der Zeit: Anzugeben ist die Zeit als Bedingung oder ein Effekt, der driftet; sonst sind die \
+        Größen Mittelwerte über die Zeilen"),
+    ("row-drift.best-hypothesis", "Die Residuen von `{name}` nach der besten Hypothese driften über die \
+        Zeilen, von der ersten bis zur letzten um das {change}-Fache der Standardabweichung des Rauschens \
+        (durch Zufall in einer von 10 000 Tabellen). Wurden die Zeilen in dieser Reihenfolge aufgenommen, \
+        so ändert sich etwas mit der Zeit: Anzugeben ist die Zeit als Bedingung oder ein Effekt, der \
+        driftet; sonst sind die Größen Mittelwerte über die Zeilen"),
+    ("row-drift.memory", "Die Residuen von `{name}` ändern sich langsam über die Zeilen: Benachbarte \
+        Zeilen haben den Korrelationskoeffizienten {coefficient} (durch Zufall in einer von 10 000 \
+        Tabellen). Wurden die Zeilen in dieser Reihenfolge aufgenommen, so ändert sich etwas mit der \
+        Zeit, und die angegebenen Unsicherheiten können richtig sein: Anzugeben ist die Zeit als \
+        Bedingung oder ein Effekt, der sich mit ihr ändert"),
     ("copied-rows", "Die Zeilen {rows}{more} haben die Bedingungen und auf alle Stellen die Werte der \
         {firsts}. {said}"),
     ("copied-rows.one", "Zeile {copy} hat die Bedingungen und auf alle Stellen die Werte der Zeile {first}. \
         {said}"),
     ("several-rows", "Zeilen {rows}{more}"),
     ("few-conditions", "Es gibt nur {count} verschiedene Bedingungen; Effekte, die sich anderswo \
-        unterscheiden, sehen hier gleich aus"),
-    ("few-conditions.one", "Es gibt nur eine Bedingung; Effekte, die sich anderswo unterscheiden, sehen hier \
-        gleich aus"),
-    ("periodic-residuals", "Was von `{name}` bleibt, folgt längs `{condition}` einem Sinus mit der Periode \
-        {period} und der Amplitude {amplitude}, die {percent} % der Varianz ausmacht (so viel durch Zufall in \
-        einer von einer Million Tabellen): eine Störung, die wiederkehrt, und kein größeres Rauschen. Sie ist \
-        als Effekt anzugeben, etwa `{name} + k*sin(2*pi*{condition}/({divisor}) + phi)`"),
-    ("periodic-residuals.rows", "Was von `{name}` bleibt, folgt längs der Zeilen in ihrer Reihenfolge einem \
-        Sinus mit einer Periode von {period} Zeilen und der Amplitude {amplitude}, die {percent} % der Varianz \
-        ausmacht (so viel durch Zufall in einer von einer Million Tabellen): eine Störung, die wiederkehrt, \
-        und kein größeres Rauschen. Sie ist als Effekt anzugeben, etwa `{name} + k*sin(2*pi*row/... + phi)` \
-        mit einer Bedingung, die sagt, wann oder wo die Zeilen aufgenommen wurden"),
-    ("prior-conflict", "{who} würde die Daten mit einer Größe von {parameter} erklären, die {distance} \
+        unterscheiden, können hier gleich sein"),
+    ("few-conditions.one", "Es gibt nur eine Bedingung; Effekte, die sich anderswo unterscheiden, können \
+        hier gleich sein"),
+    ("periodic-residuals", "Die Residuen von `{name}` folgen längs `{condition}` einem Sinus mit der \
+        Periode {period} und der Amplitude {amplitude}, {percent} % ihrer Varianz (durch Zufall in einer \
+        von einer Million Tabellen): eine periodische Störung, kein größeres Rauschen. Sie ist als Effekt \
+        anzugeben, etwa `{name} + k*sin(2*pi*{condition}/({divisor}) + phi)`"),
+    ("periodic-residuals.rows", "Die Residuen von `{name}` folgen längs der Zeilen in ihrer Reihenfolge \
+        einem Sinus mit einer Periode von {period} Zeilen und der Amplitude {amplitude}, {percent} % \
+        ihrer Varianz (durch Zufall in einer von einer Million Tabellen): eine periodische Störung, kein \
+        größeres Rauschen. Sie ist als Effekt anzugeben, etwa `{name} + k*sin(2*pi*row/... + phi)` mit \
+        einer Bedingung für Zeit oder Ort der Zeilen"),
+    ("prior-conflict", "{who} würde die Daten mit einem Wert von {parameter} erklären, der {distance} \
         {counted_in} liegt (Wahrscheinlichkeit {probability}, mit {widened}-mal so breiten \
         A-priori-Verteilungen)"),
-    ("wide-priors", "Die A-priori-Verteilungen der Parameter der Effekte sind so breit, dass eine Abweichung \
-        beliebiger Form wahrscheinlicher ist als {effect}; mit {times}-mal so schmalen A-priori-Verteilungen \
-        ist {effect} wahrscheinlicher. A-priori-Verteilungen sollten nicht breiter sein, als man darauf wetten \
-        würde"),
+    ("wide-priors", "Die A-priori-Verteilungen der Parameter der Effekte sind so breit, dass eine \
+        Abweichung beliebiger Form wahrscheinlicher ist als {effect}; mit {times}-mal so schmalen \
+        A-priori-Verteilungen ist {effect} wahrscheinlicher. A-priori-Verteilungen sollten nur so breit \
+        sein, wie es das Vorwissen verlangt"),
     ("wide-priors.several", "Die A-priori-Verteilungen der Parameter der Effekte sind so breit, dass eine \
         Abweichung beliebiger Form wahrscheinlicher ist als {effects}; mit {times}-mal so schmalen \
-        A-priori-Verteilungen sind {effects} wahrscheinlicher. A-priori-Verteilungen sollten nicht breiter \
-        sein, als man darauf wetten würde"),
-    ("undefined-prediction", "In {count} von {rows} Zeilen der Vorhersage haben Hypothesen von einiger \
-        Wahrscheinlichkeit keinen Wert (eine Wurzel oder ein Logarithmus einer negativen Zahl, eine Division \
-        durch null). Sie bleiben dort weg; wo sie wahrscheinlicher sind als die übrigen, wird nichts \
-        vorhergesagt"),
-    ("emulator", "Mit {name} weicht das, was für die Ausgaben des Simulators genommen wird, um etwa {error} \
-        Standardunsicherheiten der Daten ab, die Norm über alle Zeilen, und unter {goal} zählte es nicht. Es \
-        braucht etwa {runs} weitere Läufe"),
-    ("emulator.plain", "Ohne Effekt weicht das, was für die Ausgaben des Simulators genommen wird, um etwa \
-        {error} Standardunsicherheiten der Daten ab, die Norm über alle Zeilen, und unter {goal} zählte es \
-        nicht. Es braucht etwa {runs} weitere Läufe"),
-    ("emulator.not-run", "Mit {name} lief der Simulator nie bei den Parametern, die aus den Daten folgen, so \
-        dass die Wahrscheinlichkeit auf Läufen anderswo beruht. Es braucht etwa {runs} weitere Läufe"),
-    ("emulator.plain-not-run", "Ohne Effekt lief der Simulator nie bei den Eingangsgrößen, die aus den Daten \
-        folgen, so dass die Wahrscheinlichkeit auf Läufen anderswo beruht. Es braucht etwa {runs} weitere Läufe"),
-    ("simulator", "Der Simulator lief {runs}-mal. Bei dem, was angegeben wird, weicht das, was für seine \
-        Ausgaben genommen wird, um etwa {error} Standardunsicherheiten der Daten ab, die Norm über alle Zeilen"),
+        A-priori-Verteilungen sind {effects} wahrscheinlicher. A-priori-Verteilungen sollten nur so breit \
+        sein, wie es das Vorwissen verlangt"),
+    ("undefined-prediction", "In {count} von {rows} Zeilen der Vorhersage haben einige Hypothesen keinen \
+        Wert (eine Wurzel oder ein Logarithmus einer negativen Zahl, eine Division durch null). Sie \
+        bleiben dort weg; wenn sie wahrscheinlicher sind als die übrigen, wird nichts vorhergesagt"),
+    ("emulator", "Mit {name} weichen die vorhergesagten Ausgaben des Simulators um etwa {error} \
+        Standardunsicherheiten der Daten ab (Norm über alle Zeilen); weniger als {goal} ist \
+        vernachlässigbar. Etwa {runs} weitere Läufe sind nötig"),
+    ("emulator.plain", "Ohne Effekt weichen die vorhergesagten Ausgaben des Simulators um etwa {error} \
+        Standardunsicherheiten der Daten ab (Norm über alle Zeilen); weniger als {goal} ist \
+        vernachlässigbar. Etwa {runs} weitere Läufe sind nötig"),
+    ("emulator.not-run", "Mit {name} lief der Simulator nie in der Nähe der Parameter, die zu den Daten \
+        passen, so dass die Wahrscheinlichkeit auf Läufen anderswo beruht. Etwa {runs} weitere Läufe sind \
+        nötig"),
+    ("emulator.plain-not-run", "Ohne Effekt lief der Simulator nie in der Nähe der Eingangsgrößen, die zu \
+        den Daten passen, so dass die Wahrscheinlichkeit auf Läufen anderswo beruht. Etwa {runs} weitere \
+        Läufe sind nötig"),
+    ("simulator", "Der Simulator lief {runs}-mal. Bei den angegebenen Parametern weichen seine \
+        vorhergesagten Ausgaben um etwa {error} Standardunsicherheiten der Daten ab (Norm über alle \
+        Zeilen)"),
     ("simulator.runs", "Der Simulator lief {runs}-mal"),
-    ("simulator.scatter", "Von Lauf zu Lauf streut {name} des Simulators bei gleichen Parametern um {deviation} \
-        Standardunsicherheiten der Daten, wie {repeats} Läufe am Anfang zeigen. Die Streuung wurde als unabhängig \
-        von Zeile zu Zeile und als gleich für alle Parameter genommen. Verglichen wird mit dem Mittel des \
-        Simulators, und was die Streuung der Läufe daran offen lässt, zählt als Unsicherheit"),
-    ("simulator.scatter-correlated", "Von Lauf zu Lauf streut {name} des Simulators bei gleichen Parametern um \
-        {deviation} Standardunsicherheiten der Daten, wie {repeats} Läufe am Anfang zeigen. Die Streuung wurde als \
-        über die Zeilen korreliert genommen, mit einem Koeffizienten von {correlation} zwischen Nachbarn, der mit \
-        seinen Potenzen fällt, und als gleich für alle Parameter. Verglichen wird mit dem Mittel des Simulators, \
-        und was die Streuung der Läufe daran offen lässt, zählt als Unsicherheit"),
-    ("simulator.untold", "Die Daten sagen nichts über {names}: Bekannt ist davon nicht mehr, als die \
-        A-priori-Verteilung sagt"),
-    ("simulator.together", "Die Daten sagen etwas über {first} und {second} zusammen und über keines allein: Ihr \
+    ("simulator.scatter", "Von Lauf zu Lauf streut {name} des Simulators bei gleichen Parametern um \
+        {deviation} Standardunsicherheiten der Daten, wie {repeats} Läufe am Anfang zeigen. Die Streuung \
+        gilt als unabhängig von Zeile zu Zeile und als gleich für alle Parameter. Verglichen wird mit dem \
+        Mittelwert des Simulators, dessen Unsicherheit aus der Streuung der Läufe enthalten ist"),
+    ("simulator.scatter-correlated", "Von Lauf zu Lauf streut {name} des Simulators bei gleichen \
+        Parametern um {deviation} Standardunsicherheiten der Daten, wie {repeats} Läufe am Anfang zeigen. \
+        Die Streuung gilt als über die Zeilen korreliert, mit einem Koeffizienten von {correlation} \
+        zwischen Nachbarn, der mit seinen Potenzen fällt, und als gleich für alle Parameter. Verglichen \
+        wird mit dem Mittelwert des Simulators, dessen Unsicherheit aus der Streuung der Läufe enthalten \
+        ist"),
+    ("simulator.untold", "Die Daten enthalten keine Information über {names}: Die Unsicherheit ist \
+        jeweils wie in der A-priori-Verteilung"),
+    ("simulator.together", "Die Daten bestimmen {first} und {second} zusammen, aber keines allein: Ihr \
         Korrelationskoeffizient ist {coefficient}"),
     ("simulator.failed", "{failed} von {runs} Läufen des Simulators schlugen fehl, der erste bei {at}: {why}"),
-    ("extrapolation", "{outside} von {rows} Zeilen der Vorhersage liegen außerhalb der Bedingungen der Daten. \
-        Kein Effekt der Liste sagt, wie die Abweichung dort weitergeht: Glatte und zusammengesetzte \
-        Abweichungen werden mit weniger Rücksicht auf ihre Wahrscheinlichkeiten gemittelt, und die \
-        Standardunsicherheit wird mit der Entfernung vergrößert"),
-    ("extrapolation.effects", "{outside} von {rows} Zeilen der Vorhersage liegen außerhalb der Bedingungen der \
-        Daten. Die Effekte gehen dort so weiter, wie ihre Formeln sagen, und die Daten zeigen nicht, ob sie \
-        das tun: Hypothesen, die bei den Daten übereinstimmen, können sich dort unterscheiden und werden mit \
-        ihren Wahrscheinlichkeiten gemittelt"),
+    ("extrapolation", "{outside} von {rows} Zeilen der Vorhersage liegen außerhalb der Bedingungen der \
+        Daten. Kein Effekt der Liste beschreibt die Abweichung dort: Glatte und zusammengesetzte \
+        Abweichungen werden mit weniger Gewicht auf ihren Wahrscheinlichkeiten gemittelt, und die \
+        Standardunsicherheit wächst mit der Entfernung"),
+    ("extrapolation.effects", "{outside} von {rows} Zeilen der Vorhersage liegen außerhalb der \
+        Bedingungen der Daten. Die Formeln der Effekte werden dort verwendet, aber die Daten prüfen sie \
+        nicht: Hypothesen, die bei den Daten übereinstimmen, können sich dort unterscheiden und werden \
+        mit ihren Wahrscheinlichkeiten gemittelt"),
 ];
 
 /// Facts that only a command knows.
 #[rustfmt::skip]
 const COMMANDS: Sentences = &[
-    ("few-trials.audit", "{trials} Versuche sind zu wenige, um zu sagen, wie Annahmen das Ergebnis bewegen; es \
+    ("few-trials.audit", "{trials} Versuche sind zu wenige, um die Wirkung von Annahmen zu erkennen; es \
         werden {made} gemacht"),
     ("more-than-two-digits", "U wird auf {digits} signifikante Stellen angegeben; ein akkreditierter \
         Kalibrierschein darf höchstens zwei haben (ILAC-P14:09/2020, 5.3)"),
-    ("rounded-away", "Zeile {row}: U wird als {stated} angegeben, {percent} % weniger als {expanded}; EA-4/02 \
-        M:2022, 6.3, erlaubt eine Rundung, die höchstens 5 % wegnimmt: `\"rounding\": \"ea\"` rundet dort auf"),
-    ("digits-of-trials", "Zeile {row}: Die Angaben sind die der Versuche, deren letzte Stelle vom Startwert \
-        abhängt: {why}"),
+    ("rounded-away", "Zeile {row}: U wird als {stated} angegeben, {percent} % weniger als {expanded}; \
+        EA-4/02 M:2022, 6.3, erlaubt, dass die Rundung U um höchstens 5 % verringert: `\"rounding\": \
+        \"ea\"` rundet dort auf"),
+    ("digits-of-trials", "Zeile {row}: Die Werte folgen aus den Versuchen, so dass ihre letzte Stelle vom \
+        Startwert abhängt: {why}"),
     ("raised-to-cmc.certificate", "Zeile {row}: U wird auf die Messmöglichkeit (CMC) des Laboratoriums von \
         {cmc} angehoben"),
     ("below-cmc.certificate", "Zeile {row}: U = {expanded} liegt unter der Messmöglichkeit (CMC) des \
         Laboratoriums von {cmc}, was ein akkreditierter Kalibrierschein nicht angeben darf (ILAC-P14); \
         `\"cmc_floor\": true` hebt es an"),
-    ("not-stated", "der Kalibrierschein sagt nicht, was ISO/IEC 17025:2017, 7.8.2.1 und 7.8.4.1 verlangen: \
-        {missing}"),
+    ("not-stated", "dem Kalibrierschein fehlen Angaben, die ISO/IEC 17025:2017, 7.8.2.1 und 7.8.4.1 \
+        verlangen: {missing}"),
     ("evidence-unused", "der Beleg zu `{name}` wird nicht verwendet: Er gilt einer angenommenen Verteilung \
         (Typ B), und diese ist aus Ablesungen ermittelt (Typ A)"),
     ("evidence-unused.constant", "der Beleg zu `{name}` wird nicht verwendet: Er gilt einer angenommenen \
         Verteilung (Typ B), und dies ist eine Konstante"),
     ("evidence-first-row", "`{name}` ist nicht in allen Zeilen dieselbe Größe; der Beleg wird mit der ersten \
         Zeile verglichen"),
-    ("variant-undefined", "mit einer anderen Form oder Breite von `{name}` haben einige Versuche kein endliches \
-        Ergebnis; diese Varianten haben keine Angaben"),
+    ("variant-undefined", "mit einer anderen Form oder Breite von `{name}` haben einige Versuche kein \
+        endliches Ergebnis; diese Varianten haben keine Ergebnisse"),
     ("drawn-together", "{names} werden gemeinsam gezogen; sie haben einen gemeinsamen Sobol-Index"),
     ("drawn-together.ranks", "{names} werden gemeinsam gezogen; sie haben einen gemeinsamen Sobol-Index. Mit \
         einer anderen Form bleibt die Abhängigkeit ihrer Ränge, so dass sich der Korrelationskoeffizient etwas \
@@ -610,23 +622,22 @@ const PARTS: Sentences = &[
     ("figure.standard-uncertainty", "die Standardunsicherheit"),
     ("figure.median", "der Median"),
     ("figure.inside", "die Wahrscheinlichkeit innerhalb der Toleranz"),
-    ("figure.symmetric-lower", "das untere Ende des symmetrischen Intervalls"),
-    ("figure.symmetric-upper", "das obere Ende des symmetrischen Intervalls"),
-    ("figure.shortest-lower", "das untere Ende des kürzesten Intervalls"),
-    ("figure.shortest-upper", "das obere Ende des kürzesten Intervalls"),
+    ("figure.symmetric-lower", "der untere Endpunkt des symmetrischen Intervalls"),
+    ("figure.symmetric-upper", "der obere Endpunkt des symmetrischen Intervalls"),
+    ("figure.shortest-lower", "der untere Endpunkt des kürzesten Intervalls"),
+    ("figure.shortest-upper", "der obere Endpunkt des kürzesten Intervalls"),
     ("at", " bei {conditions}"),
     ("condition", "{name} = {value}"),
-    ("difference.above", "liegt {percent} über der des GUM"),
-    ("difference.below", "liegt {percent} unter der des GUM"),
-    ("difference.from-zero", "ist nicht null wie die des GUM"),
+    ("difference.above", "ist {percent} größer als der GUM-Wert"),
+    ("difference.below", "ist {percent} kleiner als der GUM-Wert"),
+    ("difference.from-zero", "ist im Unterschied zum GUM-Wert nicht null"),
     ("beyond-bounds", "über alle Schranken"),
     ("in-brackets", " ({dof})"),
-    ("few-dof-not-allowed-for", "Keine von beiden ist falsch; kein Erweiterungsfaktor des GUM trägt dem hier \
-        Rechnung"),
-    ("few-dof-allowed-for", "Keine von beiden ist falsch; der GUM trägt dem im Erweiterungsfaktor Rechnung"),
-    ("few-dof-long-tails", "Der GUM trägt dem in seinem Erweiterungsfaktor Rechnung, dem einer t-Verteilung, \
-        deren lange Ausläufer diese Eingangsgrößen nicht haben"),
-    ("non-linear-few-dof", "; wenige Freiheitsgrade{dof} allein brächten sie {alone} darüber"),
+    ("few-dof-not-allowed-for", "Beide sind richtig; hier enthält kein Erweiterungsfaktor des GUM dies"),
+    ("few-dof-allowed-for", "Beide sind richtig; der GUM berücksichtigt dies im Erweiterungsfaktor"),
+    ("few-dof-long-tails", "Der GUM berücksichtigt dies in seinem Erweiterungsfaktor aus einer \
+        t-Verteilung, deren lange Ausläufer diese Eingangsgrößen nicht haben"),
+    ("non-linear-few-dof", "; wenige Freiheitsgrade{dof} allein würden sie {alone} größer machen"),
     ("non-linear-terms", "; {said}"),
     ("second-order", "mit seinen Gliedern zweiter Ordnung (JCGM 100, 5.1.2, Anmerkung) gibt das \
         Fortpflanzungsgesetz {with_terms} statt {linear}{products}"),
@@ -641,11 +652,11 @@ const PARTS: Sentences = &[
     ("value-by-propagation", "der Wert ist der Schätzwert nach dem Fortpflanzungsgesetz"),
     ("value-is-median", "der Wert ist der Median"),
     ("beside.given", "in {unit} angegeben"),
-    ("beside.computed", "aus dem berechnet, was in {unit} angegeben ist"),
+    ("beside.computed", "aus einer Größe in {unit} berechnet"),
     ("converted-to.coherent-unit", "{unit} umrechnet, worin Formeln sie schon haben"),
     ("converted-to.unit", "{unit} umrechnet, und {what} in {unit} wird auch umgerechnet: Formeln rechnen in \
         kohärenten SI-Einheiten"),
-    ("converted-to.beside", "die Einheit dessen, was daneben steht,"),
+    ("converted-to.beside", "die Einheit daneben"),
     ("converted-to.number", "eine bloße Zahl"),
     ("with-equations", " mit den Gleichungen, die es aufnimmt,"),
     ("or-turns", "; eine Drehzahl wird statt dessen mit 2*pi multipliziert"),
@@ -684,12 +695,12 @@ const PARTS: Sentences = &[
     ("other-input.figures", "mit anderem Schätzwert oder anderer Standardunsicherheit"),
     ("other-input.unknown-place", "eine wurde von einer älteren Version gespeichert, die die Stelle im \
         Kalibrierschein nicht angab"),
-    ("other-input.content", "mit denselben Angaben, aber aus Dateien mit verschiedenem Inhalt"),
+    ("other-input.content", "mit denselben Werten, aber aus Dateien mit verschiedenem Inhalt"),
     ("changed-parts", " ({parts})"),
     ("misfit", "passt nicht zu diesem Modell{why}{condition}{needs}"),
     ("misfit.missing", ", das {quantities} nicht hat"),
-    ("misfit.prior", ": Seine A-priori-Verteilung ist {prior}, was die Daten nicht geben"),
-    ("misfit.unchanged", ", das nichts von dem hat, was er ändert: {quantities}"),
+    ("misfit.prior", ": Seine A-priori-Verteilung ist {prior}, die die Daten nicht enthalten"),
+    ("misfit.unchanged", ", das keine der Größen hat, die er ändert: {quantities}"),
     ("misfit.condition", "; die Bedingung `{name}` ist eingestellt und bekannt: Sie ist durch eine Größe zu \
         ersetzen, die aus der Bedingung berechnet wird, oder durch eine Eingangsgröße, deren Mittelwert die \
         Bedingung ist"),
@@ -697,8 +708,8 @@ const PARTS: Sentences = &[
     ("misfit.on-bench", "; für den Prüfstand `{bench}` gilt: Er {needs}"),
     ("misfit.needs", "braucht {quantities}"),
     ("misfit.changes", "ändert {quantities}"),
-    ("misfit.history", "passt nicht zu diesen Daten: Die Reihenfolge ihrer Zeilen trennt das, was er \
-        braucht, nicht von den Bedingungen, wie dort, wo eine Bedingung nur steigt"),
+    ("misfit.history", "passt nicht zu diesen Daten: Die Reihenfolge ihrer Zeilen trennt seine \
+        Vorgeschichte nicht von den Bedingungen, zum Beispiel weil eine Bedingung nur steigt"),
     ("misfit.no-change", "ändert keine beobachtete Ausgangsgröße"),
     ("misfit.refused", "kann auf dieses Modell nicht wirken: {error}"),
     ("observed.amplitudes", "jede beobachtete Ausgangsgröße, die keine Phase ist"),
@@ -716,9 +727,9 @@ const PARTS: Sentences = &[
     ("import.row-constant", "Zeile {row} `{text}` hat keine Unsicherheit und ist eine Konstante der \
         Gleichung"),
     ("import.row-named", "Zeile {row}: `{words}` heißt `{name}`"),
-    ("import.distribution", "Zeile {row}: Von `{text}` wird die Standardunsicherheit genommen, wie von einer \
-        Normalverteilung"),
-    ("import.dof", "Zeile {line}: Von `{text}` werden {dof} Freiheitsgrade genommen"),
+    ("import.distribution", "Zeile {row}: Die Standardunsicherheit von `{text}` wird verwendet, wie bei \
+        einer Normalverteilung"),
+    ("import.dof", "Zeile {line}: {dof} Freiheitsgrade werden aus `{text}` gelesen"),
     ("import.equation", "die Gleichung {name} = {formula}"),
     ("import.unit-of-result", "das Ergebnis ist in `{unit}`, der kohärenten Einheit seiner Gleichung"),
     ("import.constant", "die Konstante {constant} wird addiert, die den Schätzwert des Ergebnisses ergibt: \
@@ -735,7 +746,7 @@ const PARTS: Sentences = &[
     ("import.normal-now", "`{name}` ist jetzt normalverteilt: Die bisherige Verteilung ({distribution}) \
         passt nicht zu den geänderten Zellen"),
     ("of-time-column", "die Zeitspalte hat"),
-    ("of-header", "der Dateikopf sagt"),
+    ("of-header", "der Dateikopf nennt"),
     ("highest", "höchste"),
     ("lowest", "kleinste"),
     ("sample-of-time", "Abtastwert {sample}, die Zeit"),
@@ -750,8 +761,8 @@ const PARTS: Sentences = &[
         die Residuen beschreibt"),
     ("noise-of-process.before-steps", "das Rauschen nahe jeder Frequenz nach den Schritten wird einem Prozess \
         erster Ordnung entnommen, der diese Residuen beschreibt"),
-    ("noise-even", "die Aufzeichnung ist zu kurz, um das Rauschen nahe jeder Frequenz zu bestimmen; es gilt \
-        als gleichmäßig über das, was die Schritte durchlassen, so dass Standardunsicherheiten vielleicht zu \
+    ("noise-even", "die Aufzeichnung ist zu kurz, um das Rauschen nahe jeder Frequenz zu bestimmen; es \
+        gilt als gleichmäßig über das Band der Schritte, so dass Standardunsicherheiten vielleicht zu \
         klein sind"),
     ("noise-unknown", "die Aufzeichnung ist zu kurz, um das Rauschen nahe jeder Frequenz zu bestimmen, so dass \
         Standardunsicherheiten vielleicht zu klein sind"),
@@ -774,30 +785,28 @@ const PARTS: Sentences = &[
     ("one-row", "Zeile {row}"),
     ("range-of-rows", "{first} bis {last}"),
     ("copies-count-once", "Unabhängige Messwerte mit den angegebenen Unsicherheiten würden sich mit einer \
-        Wahrscheinlichkeit unter {below} so oft wiederholen: Was sich wiederholt, wurde kopiert, oder seine \
-        Unsicherheit ist den Zeilen gemeinsam, und es sagt nichts Neues. Solche Zeilen zählen einmal, \
-        {counted} von {all}"),
-    ("copies-count-once.one", "Unabhängige Messwerte mit den angegebenen Unsicherheiten würden einander mit \
-        einer Wahrscheinlichkeit unter {below} wiederholen: Was sich wiederholt, wurde kopiert, oder seine \
-        Unsicherheit ist den Zeilen gemeinsam, und es sagt nichts Neues. Solche Zeilen zählen einmal, \
-        {counted} von {all}"),
-    ("copies-unknown", "Ohne angegebene Unsicherheiten ist nicht zu sagen, ob sie gemessen wurden; sie zählen \
-        daher mit eigenem Rauschen. Wurden sie kopiert, so macht das die Diagnose zu sicher oder findet eine \
-        Lücke, die es nicht gibt: Solche Zeilen sind wegzulassen, wenn sie nicht gemessen wurden"),
-    ("copies-unknown.one", "Ohne angegebene Unsicherheiten ist nicht zu sagen, ob sie gemessen wurde; sie \
-        zählt daher mit eigenem Rauschen. Wurde sie kopiert, so macht das die Diagnose zu sicher oder findet \
-        eine Lücke, die es nicht gibt: Solche Zeilen sind wegzulassen, wenn sie nicht gemessen wurden"),
-    ("copies-by-chance", "Durch Zufall geschieht das selten, doch es ist nicht auszuschließen, dass sie \
-        gemessen wurden; sie zählen daher mit eigenem Rauschen. Wurden sie kopiert, so macht das die Diagnose \
-        zu sicher oder findet eine Lücke, die es nicht gibt: Solche Zeilen sind wegzulassen, wenn sie nicht \
-        gemessen wurden"),
-    ("copies-by-chance.one", "Durch Zufall geschieht das selten, doch es ist nicht auszuschließen, dass sie \
-        gemessen wurde; sie zählt daher mit eigenem Rauschen. Wurde sie kopiert, so macht das die Diagnose zu \
-        sicher oder findet eine Lücke, die es nicht gibt: Solche Zeilen sind wegzulassen, wenn sie nicht \
-        gemessen wurden"),
+        Wahrscheinlichkeit unter {below} so oft wiederholen: Die wiederholten Werte wurden kopiert, oder \
+        die Zeilen haben eine gemeinsame Unsicherheit, so dass sie keine neue Information enthalten. \
+        Diese Zeilen zählen einmal, {counted} von {all}"),
+    ("copies-count-once.one", "Unabhängige Messwerte mit den angegebenen Unsicherheiten würden einander \
+        mit einer Wahrscheinlichkeit unter {below} wiederholen: Der wiederholte Wert wurde kopiert, oder \
+        die Zeilen haben eine gemeinsame Unsicherheit, so dass er keine neue Information enthält. Diese \
+        Zeilen zählen einmal, {counted} von {all}"),
+    ("copies-unknown", "Ohne angegebene Unsicherheiten ist unbekannt, ob sie gemessen wurden; sie zählen \
+        daher mit eigenem Rauschen. Wurden sie kopiert, so ist die Diagnose zu sicher oder findet eine \
+        Lücke, die es nicht gibt: Diese Zeilen sind wegzulassen, wenn sie nicht gemessen wurden"),
+    ("copies-unknown.one", "Ohne angegebene Unsicherheiten ist unbekannt, ob sie gemessen wurde; sie \
+        zählt daher mit eigenem Rauschen. Wurde sie kopiert, so ist die Diagnose zu sicher oder findet \
+        eine Lücke, die es nicht gibt: Diese Zeilen sind wegzulassen, wenn sie nicht gemessen wurden"),
+    ("copies-by-chance", "Durch Zufall ist dies selten, doch sie können gemessen sein; sie zählen daher \
+        mit eigenem Rauschen. Wurden sie kopiert, so ist die Diagnose zu sicher oder findet eine Lücke, \
+        die es nicht gibt: Diese Zeilen sind wegzulassen, wenn sie nicht gemessen wurden"),
+    ("copies-by-chance.one", "Durch Zufall ist dies selten, doch sie kann gemessen sein; sie zählt daher \
+        mit eigenem Rauschen. Wurde sie kopiert, so ist die Diagnose zu sicher oder findet eine Lücke, \
+        die es nicht gibt: Diese Zeilen sind wegzulassen, wenn sie nicht gemessen wurden"),
     ("effect-alone", "{effect} allein"),
     ("effects-together", "{others} zusammen mit {last}"),
-    ("widths-beyond-bound", "Breiten der A-priori-Verteilung jenseits ihrer Grenze"),
+    ("widths-beyond-bound", "A-priori-Breiten jenseits der Grenze der A-priori-Verteilung"),
     ("deviations-from-mean", "Standardabweichungen der A-priori-Verteilung von ihrem Erwartungswert entfernt"),
     ("effect-with", "{first} mit {second}"),
     ("of-model", "{model}: "),

@@ -50,7 +50,7 @@ fn table(rooms: &[Sentences]) -> Table {
 ///
 /// let fact = fact!("undefined-trials", count = 3_u64, trials = 1000_u64);
 /// let said = sentence(&fact, Language::English);
-/// assert_eq!(said, "3 of 1000 trials are not finite and were left out");
+/// assert_eq!(said, "3 of 1000 trials have no finite result and were left out");
 /// ```
 pub fn sentence(fact: &Fact, language: Language) -> String {
     let words = match language {

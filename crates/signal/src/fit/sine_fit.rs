@@ -57,8 +57,8 @@ impl fmt::Display for NoFit {
                 Shortest(*cycles)
             ),
             Self::TooShort => f.write_str(
-                "the values are fewer than the parameters of the tones, or the record is too short to \
-                 tell the tones apart",
+                "the values are fewer than the parameters of the tones, or the record is too \
+                 short to separate the tones",
             ),
         }
     }

@@ -155,13 +155,13 @@ impl CorrelationError {
                 name(*member)
             ),
             Self::Unpaired { member, count } => format!(
-                "{} has paired readings, of which there must be as many of equal length as it \
-                 says, but there are {count}",
+                "{} has paired readings; the number of paired inputs with readings of equal \
+                 length must be as it states, but it is {count}",
                 name(*member)
             ),
             Self::GivenByFit { member, other } => format!(
-                "{} is a parameter of a calibration function, whose fit tells how it varies with \
-                 the others, so that it cannot have a declared correlation with {} as well",
+                "{} is a parameter of a calibration function, whose fit gives its correlations, \
+                 so that no correlation with {} can be declared",
                 name(*member),
                 name(*other)
             ),

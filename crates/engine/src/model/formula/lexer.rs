@@ -133,7 +133,7 @@ impl<'t> Lexer<'t> {
             '?' | ':' => (Some("a choice is written `if(condition, a, b)`"), None),
             '"' | '\'' => (Some("the quote at the end of this text is missing"), None),
             '°' | 'º' | '˚' => (Some("an angle of 30 degrees is written `30 [deg]`"), None),
-            '[' => (Some("a unit stands between `[` and `]`; parentheses are `(` and `)`"), None),
+            '[' => (Some("write a unit between `[` and `]`; parentheses are `(` and `)`"), None),
             '{' => (Some("parentheses are `(` and `)`"), Some("(")),
             ']' => (Some("there is no `[` before it"), None),
             '}' => (Some("parentheses are `(` and `)`"), Some(")")),

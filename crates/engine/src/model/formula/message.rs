@@ -100,14 +100,14 @@ impl fmt::Display for FormulaError {
                 more(f, *hint, suggestion.as_deref())
             }
             Self::UnexpectedEnd { expected, opened, .. } => {
-                write!(f, "the formula stops where {expected} should stand")?;
+                write!(f, "the formula ends where {expected} is expected")?;
                 match opened {
                     Some(_) => f.write_str("; a parenthesis is still open"),
                     None => Ok(()),
                 }
             }
             Self::UnexpectedToken { found, expected, hint, suggestion, .. } => {
-                write!(f, "`{found}` cannot stand here; expected {expected}")?;
+                write!(f, "`{found}` is not allowed here; expected {expected}")?;
                 more(f, hint.as_deref(), suggestion.as_deref())
             }
             Self::UnreadableNumber { text, fault, suggestion, .. } => {
@@ -231,12 +231,16 @@ impl fmt::Display for FormulaError {
                     )?;
                     match (other.is_celsius, is_name(&other.text)) {
                         (true, true) => {
-                            write!(f, ", or take the number of the other, `{}/[{given}]`", other.text)?;
+                            write!(
+                                f,
+                                ", or take the number of the other, `{}/[{given}]`",
+                                other.text
+                            )?;
                         }
                         // a width that grows with the temperature, IEC 60751
                         (true, false) => f.write_str(
-                            ", or compute with numbers: those of degrees Celsius are `t/[degC]`, as in \
-                             `(0.3 + 0.005*t/[degC])*1 [K]`",
+                            ", or compute with numbers: the number of degrees Celsius is \
+                             `t/[degC]`, as in `(0.3 + 0.005*t/[degC])*1 [K]`",
                         )?,
                         _ => {}
                     }
@@ -276,7 +280,7 @@ impl fmt::Display for FormulaError {
                 write!(f, "`[{}]` is no unit: {error}", short(text))?;
                 match text.contains(['+', '-', '(']) {
                     true => {
-                        f.write_str(" (parts of a formula stand in parentheses, units in `[]`)")
+                        f.write_str(" (write parts of a formula in parentheses, units in `[]`)")
                     }
                     false => Ok(()),
                 }
@@ -286,8 +290,8 @@ impl fmt::Display for FormulaError {
             }
             Self::NumberWithUnit { number, unit, .. } => write!(
                 f,
-                "`{}` is {} already, and a unit in brackets stands behind a plain number; the \
-                 number of {unit} is `{}/[{unit}]`",
+                "`{}` is {} already, and a unit in brackets follows a plain number; the number of \
+                 {unit} is `{}/[{unit}]`",
                 number.text,
                 number.dimension.describe(),
                 number.text
@@ -320,8 +324,8 @@ impl fmt::Display for FormulaError {
             ),
             Self::TableOutOfPlace { file, .. } => write!(
                 f,
-                "the table of `{}` cannot be read here; a table stands in the equations of a model \
-                 file",
+                "the table of `{}` cannot be read here; tables are only in the equations of a \
+                 model file",
                 short(file)
             ),
             Self::TableArgument { argument, expected } => {

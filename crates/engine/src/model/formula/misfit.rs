@@ -83,7 +83,7 @@ impl fmt::Display for ScaleMisfit {
             ),
             Self::LevelAsRatio => f.write_str(
                 "is a level in decibels; write `10^(.../10)` for the ratio of powers, \
-                 `10^(.../20)` for that of amplitudes, or give it in `dB`",
+                 `10^(.../20)` for the ratio of amplitudes, or give it in `dB`",
             ),
             Self::LevelPower => f.write_str(
                 "is a product of levels in decibels, whose unit is a power of `dB`, such as `dB^2`",
@@ -129,8 +129,9 @@ impl fmt::Display for ScaleMisfit {
                 let per = if exponent.to_f64() < 0.0 { "is divided by" } else { "is a power of" };
                 write!(
                     f,
-                    "{per} what counts revolutions, and the unit does not say whether of radians or of \
-                     revolutions; write `...{whole}` for revolutions, `...{radians}` for radians"
+                    "{per} what counts revolutions, and the unit does not state whether of \
+                     radians or of revolutions; write `...{whole}` for revolutions, \
+                     `...{radians}` for radians"
                 )
             }
             Self::Turns { found: Turn::Periods } => f.write_str(

@@ -668,12 +668,12 @@ impl Parser<'_> {
                 if self.last.as_ref().is_some_and(|last| last.span.end == span.start) {
                     // `2V` may be two volts, or twice a quantity of that name
                     let hint = format!(
-                        "the unit of a number stands in brackets, `{number} [{unit}]`, and a product \
-                         is written with `*`, `{number}*{unit}`"
+                        "write the unit of a number in brackets, `{number} [{unit}]`, and a \
+                         product with `*`, `{number}*{unit}`"
                     );
                     (Some(hint.into()), None)
                 } else {
-                    let hint = "the unit of a number stands in brackets";
+                    let hint = "write the unit of a number in brackets";
                     (Some(hint.into()), Some(format!("{number} [{unit}]")))
                 }
             }

@@ -201,8 +201,8 @@ impl fmt::Display for ScaleFault {
             }
             Self::ZeroOutOfPlace { text, zero, .. } => write!(
                 f,
-                "`{text}` is {}; it cannot stand here. Write `10^({text}/10)*1 [mW]` or the like \
-                 for the quantity itself, `{text} - L_ref` for a difference of levels",
+                "`{text}` is {}; it is not allowed here. Write `10^({text}/10)*1 [mW]` or the \
+                 like for the quantity itself, `{text} - L_ref` for a difference of levels",
                 kind(*zero)
             ),
             Self::FactorsOfSum { text, zero, total } => {
@@ -261,8 +261,8 @@ impl fmt::Display for ScaleFault {
             ),
             Self::KelvinPerCelsius { text, unit } => write!(
                 f,
-                "`{text}` is in K; write `celsius({text})/[{unit}]` for the number of degrees of a \
-                 temperature, or `{text}/[K]` for that of a difference"
+                "`{text}` is in K; write `celsius({text})/[{unit}]` for the number of degrees of \
+                 a temperature, or `{text}/[K]` for a difference"
             ),
             Self::LevelAndNumber { operator, level, number, is_literal } => write!(
                 f,
@@ -273,15 +273,15 @@ impl fmt::Display for ScaleFault {
             Self::LevelInFunction { function, text } if is_level_alone(text) => write!(
                 f,
                 "`{function}` needs a plain number, but `{text}` is a level; write \
-                 `10^({text}/10)` for the ratio of powers, `10^({text}/20)` for that of \
+                 `10^({text}/10)` for the ratio of powers, `10^({text}/20)` for the ratio of \
                  amplitudes, or `{text}/[dB]` for the number of decibels"
             ),
             // of `exp(L/20)`, an amplitude of base e, nothing can be proposed for the whole
             Self::LevelInFunction { function, text } => write!(
                 f,
-                "`{function}` needs a plain number, but `{text}` is a level; write `10^(L/10)` of a \
-                 level L for the ratio of powers, `10^(L/20)` for that of amplitudes, or `L/[dB]` for \
-                 the number of decibels"
+                "`{function}` needs a plain number, but `{text}` is a level; write `10^(L/10)` of \
+                 a level L for the ratio of powers, `10^(L/20)` for the ratio of amplitudes, or \
+                 `L/[dB]` for the number of decibels"
             ),
             Self::LevelAsExponent { text } => write!(
                 f,
@@ -299,15 +299,16 @@ impl fmt::Display for ScaleFault {
                 let [of_a, of_b] = zeros.map(|zero| zero.reference().unwrap_or_default());
                 write!(
                     f,
-                    "`{a}` is in {of_a} and `{b}` in {of_b}, of which `{operator}` knows nothing: write \
-                     `{a}*1 [{of_a}]` and `{b}*1 [{of_b}]`, or give both levels above one reference"
+                    "`{a}` is in {of_a} and `{b}` in {of_b}, which `{operator}` cannot combine: \
+                     write `{a}*1 [{of_a}]` and `{b}*1 [{of_b}]`, or give both levels above one \
+                     reference"
                 )
             }
             Self::RevolutionsAndRate { operator, revolutions, rate } => write!(
                 f,
-                "`{revolutions}` counts revolutions, and the unit of `{rate}` does not say whether it counts \
-                 revolutions or radians, so that `{operator}` cannot take them together: give it in `rpm` or \
-                 in `rad/s`"
+                "`{revolutions}` counts revolutions, and the unit of `{rate}` does not state \
+                 whether it counts revolutions or radians, so `{operator}` cannot combine them: \
+                 give it in `rpm` or in `rad/s`"
             ),
             Self::PeriodsAndAngle { operator, periods, angle } => write!(
                 f,

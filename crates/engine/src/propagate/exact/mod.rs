@@ -157,7 +157,7 @@ impl<'a> Problem<'a> {
 pub(crate) fn evaluate(problem: &Problem<'_>) -> Result<Noiseless, String> {
     let output = problem.quantity();
     if output.period.is_some() {
-        return Err("a phase comes round, and is no sum".to_owned());
+        return Err("a phase is periodic and not a sum".to_owned());
     }
     let program = &problem.task.model.program;
     let node = program.outputs[problem.output];
@@ -382,7 +382,8 @@ fn one(
     }
     let [v] = group.variables.as_slice() else {
         return Err(format!(
-            "{} inputs come together in one function that is no sum and no product of their own ones",
+            "{} inputs are in one function that is neither a sum nor a product of functions of \
+             one input",
             group.variables.len()
         ));
     };
@@ -418,7 +419,7 @@ fn figures(problem: &Problem<'_>, law: &Law, moments: ExactMoments) -> Result<No
     let p = problem.probability();
     let tail = 0.5 * (1.0 - p);
     let missing =
-        || "the density is nearly zero at an end of the interval or at the median".to_owned();
+        || "the density is nearly zero at an endpoint of the interval or at the median".to_owned();
     let found = |p: f64, q: f64| law.quantile(p, q).ok_or_else(missing);
     let median = found(0.5, 0.5)?;
     let symmetric = [found(tail, 1.0 - tail)?, found(1.0 - tail, tail)?];
@@ -428,7 +429,8 @@ fn figures(problem: &Problem<'_>, law: &Law, moments: ExactMoments) -> Result<No
     let mut bound = bounds.into_iter().fold(0.0, f64::max);
     if bound.is_nan() || bound > EXACT * scale {
         return Err(format!(
-            "the ends of the interval would be known to {:.0e} of the standard uncertainty only",
+            "the endpoints of the interval would be known only to {:.0e} of the standard \
+             uncertainty",
             bound / scale
         ));
     }

@@ -212,8 +212,8 @@ impl End {
 }
 
 /// Why quantities that are drawn in sets have no distribution here.
-pub(super) const DRAWN_TOGETHER: &str =
-    "outputs of one saved result, or parameters of a fit, are known together by draws alone";
+pub(super) const DRAWN_TOGETHER: &str = "the joint distribution of outputs of one saved result, or of parameters of a fit, is known \
+     only by draws";
 
 /// Scores farther out have no weight.
 const FARTHEST: f64 = 8.6;
@@ -492,7 +492,7 @@ fn level_points(
     let count = places.iter().map(Vec::len).try_fold(1usize, usize::checked_mul);
     let count = count.filter(|&count| count <= MOST_POINTS).ok_or_else(|| {
         let names = coordinates.len();
-        format!("{names} inputs come together in one function that is no sum of their own ones")
+        format!("{names} inputs are in one function that is not a sum of functions of one input")
     })?;
     let mut points = Vec::with_capacity(count);
     let mut in_rings = Vec::new();

@@ -61,7 +61,7 @@ pub(super) fn evaluate_with(
 ) -> Result<Noiseless, String> {
     let output = problem.quantity();
     if output.period.is_some() {
-        return Err("a phase comes round: no input has a monotone effect".to_owned());
+        return Err("a phase is periodic: no input has a monotone effect".to_owned());
     }
     let setup = Setup::new(problem)?;
     let net = |r| setup.net(seed.wrapping_add(u64::from(r)), log2);

@@ -68,8 +68,8 @@ impl NetInputs {
                 Dependence::Scores(factor) => (factor.clone(), None),
                 Dependence::Student(dof, factor) => (factor.clone(), Some(*dof)),
                 Dependence::Trials => {
-                    let why = "outputs of one saved result, or parameters of a fit, are known \
-                               together by draws alone";
+                    let why = "the joint distribution of outputs of one saved result, or of \
+                               parameters of a fit, is known only by draws";
                     return Err(why.to_owned());
                 }
             };

@@ -103,8 +103,9 @@ pub(super) fn smallest(
         return Ok(SmallestRegion { volume: volume * size, error: error * size });
     }
     Err(format!(
-        "the trials do not tell the density well enough: the numerical standard error would be more than \
-         {:.0} % of the volume, as where the density has edges, or the outputs lie on a curved surface",
+        "the trials do not give the density accurately enough: the numerical standard error would \
+         be more than {:.0} % of the volume, because the density has edges or the outputs lie on \
+         a curved surface",
         100.0 * LARGEST_ERROR
     ))
 }

@@ -96,7 +96,7 @@ const REFUSED: [(&str, &str); 102] = [
     ),
     (
         "Quantity;Estimate;Unit;u\na;3;1;0.1\nb;2;1;0.1\nY = a - b\nY = 2a + b\n",
-        "`Y = 2a + b` cannot be read as an equation, `a` cannot stand here; expected an operator or",
+        "`Y = 2a + b` cannot be read as an equation, `a` is not allowed here; expected an operator or",
     ),
     (
         "Quantity,Value,Unit,U,k\nV,10000,mV,20,2\nI,2,A,0.01,2\n\nR = V/(50*I)\n",
@@ -216,7 +216,7 @@ const REFUSED: [(&str, &str); 102] = [
     ),
     (
         "y = max(x,z)\nQuantity,Estimate,Unit,Uncertainty,Distribution,Divisor\nx,10,,0.1,normal,2\nz,4,,0.1,normal,2\n",
-        "`y = max(x` cannot be read as an equation, the formula stops where an operator, `,` or `)`",
+        "`y = max(x` cannot be read as an equation, the formula ends where an operator, `,` or `)`",
     ),
     (
         "Quantity,Estimate,Unit,Standard uncertainty,c_i,Unit of c_i\na,5,V,0.002,1,1\nb,2,mV,1,1,V/A\nResult,5.002,V,,,\n",

@@ -60,23 +60,21 @@ pub(super) const WORDS: Words = Words {
     agreed: "L'incertitude élargie U est l'incertitude-type multipliée par le facteur \
         d'élargissement convenu k = {k}. La probabilité de couverture déclarée avec elle découle \
         de la loi de Student avec les degrés de liberté effectifs ν_eff.",
-    shortest: "L'intervalle élargi déclaré est le plus court \
-        ayant une probabilité de couverture de {p}, trouvé par la méthode de Monte-Carlo (JCGM 101:2008). U \
-        est la distance de la valeur à l'extrémité la plus éloignée, et k est U divisé par \
-        l'incertitude-type, avec les chiffres que les tirages justifient.",
-    without_trials: "L'intervalle élargi déclaré a une \
-        probabilité de couverture de {p} ; il a été trouvé par la propagation de distributions (JCGM \
-        101:2008, article 5) sans tirages aléatoires, et c'est le plus court, ou bien le symétrique là \
-        où il est plus long de moins de 1 %. U est la distance de la valeur à l'extrémité la plus \
-        éloignée, et k est U divisé par l'incertitude-type.",
-    propagation: "L'incertitude-type a été évaluée par la loi de propagation des incertitudes \
-        (JCGM 100:2008), comme le demande EA-4/02 M:2022.",
-    time: "Les incertitudes ne comprennent pas le comportement de l'objet dans le temps.",
+    shortest: "L'intervalle élargi déclaré est le plus court ayant une probabilité de couverture de {p}, \
+        trouvé par la méthode de Monte-Carlo (JCGM 101:2008). U est la plus grande distance de la valeur \
+        à une extrémité de l'intervalle ; k = U/u.",
+    without_trials: "L'intervalle élargi déclaré a une probabilité de couverture de {p}. Il a été trouvé \
+        par la propagation de distributions (JCGM 101:2008, article 5) sans tirages aléatoires. C'est \
+        l'intervalle le plus court, ou l'intervalle symétrique si celui-ci est plus long de moins de 1 %. \
+        U est la plus grande distance de la valeur à une extrémité de l'intervalle ; k = U/u.",
+    propagation: "L'incertitude-type a été évaluée par la loi de propagation des incertitudes (JCGM \
+        100:2008), comme l'exige EA-4/02 M:2022.",
+    time: "Les incertitudes déclarées ne comprennent pas la stabilité à long terme de l'objet.",
     confirmed: "La méthode de Monte-Carlo (JCGM 101:2008, article 8) confirme ces intervalles.",
-    rounding: "U a {digits} ({rule}) ; la valeur est arrondie au même rang.",
+    rounding: "U est donnée avec {digits} ({rule}) ; la valeur est arrondie au même rang.",
     rules: [
         "arrondi au plus proche",
-        "arrondi au plus proche, mais par excès là où plus de 5 % seraient perdus, EA-4/02 M:2022",
+        "arrondi au plus proche ; par excès si U était sinon réduite de plus de 5 %, EA-4/02 M:2022",
         "arrondi par excès",
     ],
     kept: "U est arrondie par excès, car elle serait sinon inférieure à l'aptitude en matière de mesures \
@@ -94,17 +92,18 @@ pub(super) const WORDS: Words = Words {
     ],
     of_capability: [
         "avec le facteur d'élargissement k = {k} de l'aptitude",
-        "ramenée de son facteur d'élargissement 2 à k = {k}",
+        "convertie de son facteur d'élargissement 2 à k = {k}",
     ],
     dof_list: "Degrés de liberté effectifs ν_eff : {list}.",
     approximately: "{p} environ",
 
     function: "Fonction d'étalonnage {name}",
     in_range: "{equation} pour {low} ≤ x ≤ {high}, x et {name} étant des nombres dans les unités déclarées.",
-    band: "U est l'incertitude élargie de la fonction en x, avec le facteur d'élargissement k = {k} ; elle ne \
-        contient pas celle d'une lecture supplémentaire. Entre les valeurs de x déclarées elle découle de \
-        u(x)² = g(x)' V g(x), avec les dérivées g par rapport aux paramètres et leur matrice de covariance V, \
-        que forment les incertitudes-types et les coefficients de corrélation r des paramètres.",
+    band: "U est l'incertitude élargie de la fonction en x, avec le facteur d'élargissement k = {k} ; \
+        elle ne contient pas celle d'une lecture supplémentaire. Entre les valeurs de x déclarées elle \
+        découle de u(x)² = g(x)' V g(x). g sont les dérivées par rapport aux paramètres ; V est leur \
+        matrice de covariance, formée de leurs incertitudes-types et de leurs coefficients de corrélation \
+        r.",
     parameter: "paramètre",
     standard: "u",
     region: "Région élargie",
@@ -116,16 +115,16 @@ pub(super) const WORDS: Words = Words {
     symbol: "symbole",
     meaning: "signification",
     correlation: "Corrélation des lignes",
-    correlated: "Les lignes qui ont des grandeurs d'entrée en commun sont corrélées. \
-        L'incertitude-type de la différence des lignes i et j découle de u² = u_i² + u_j² - 2 r \
-        u_i u_j, avec les incertitudes-types u_i et u_j et le coefficient r déclarés ici. Ce \
-        sont ceux de la loi de propagation, dont U_i / k_i peut différer.",
-    correlated_raised: "Là où U est l'aptitude du laboratoire, u_i la contient, et ce qu'elle \
-        ajoute à l'incertitude évaluée est supposé non corrélé avec les autres lignes.",
+    correlated: "Les lignes qui ont des grandeurs d'entrée en commun sont corrélées. L'incertitude-type \
+        de la différence des lignes i et j découle de u² = u_i² + u_j² - 2 r u_i u_j, avec les \
+        incertitudes-types u_i et u_j et le coefficient r déclarés ici. Ils viennent de la loi de \
+        propagation ; U_i / k_i peut en différer.",
+    correlated_raised: "Si U est l'aptitude du laboratoire, u_i la contient ; ce qu'elle ajoute à \
+        l'incertitude évaluée est supposé non corrélé avec les autres lignes.",
     shared: "Les lignes ont en commun : {inputs}.",
-    many: "Certaines des {rows} lignes ont des grandeurs d'entrée en commun ; les coefficients \
-        de corrélation, et les incertitudes-types qui vont avec, sont dans la réponse JSON et \
-        dans le classeur.",
+    many: "Certaines des {rows} lignes ont des grandeurs d'entrée en commun ; les coefficients de \
+        corrélation et les incertitudes-types correspondantes sont dans la réponse JSON et dans le \
+        classeur.",
     conformity: "Conformité",
     decided: ["conforme", "non conforme", "non démontré"],
     decisions: [
@@ -134,17 +133,17 @@ pub(super) const WORDS: Words = Words {
     ],
     not_shown: [
         "La conformité du résultat à la tolérance {limits} n'est pas démontrée : il se trouve dans la \
-            tolérance, mais hors des limites d'acceptation, et il est refusé selon la règle de décision.",
+            tolérance, mais hors des limites d'acceptation. La règle de décision le refuse.",
         "La conformité du résultat à la tolérance {limits} n'est pas démontrée : il se trouve dans la \
-            tolérance, mais la règle de décision n'accepte aucune valeur, et il est refusé.",
+            tolérance, mais la règle de décision n'accepte aucune valeur. Le résultat est refusé.",
     ],
     limits: ["de {low} à {high}{unit}", "à partir de {low}{unit}", "jusqu'à {high}{unit}"],
     conforming: "La valeur est conforme avec une probabilité de {p}.",
-    all_the_same: "Risque spécifique que la valeur soit malgré tout conforme : {p}.",
+    all_the_same: "Risque spécifique que la valeur refusée soit conforme : {p}.",
     unrounded: "La décision a été prise avec la valeur avant arrondi, {value}.",
-    with_prior: "Cette probabilité tient compte de ce que l'on savait de tels objets avant la \
-        mesure (JCGM 106:2012, 6.3 et 7.1) : {prior}. D'après la valeur mesurée et son \
-        incertitude seules, elle est de {p}.",
+    with_prior: "Cette probabilité tient compte de la connaissance a priori de tels objets (JCGM \
+        106:2012, 6.3 et 7.1) : {prior}. D'après la valeur mesurée et son incertitude seules, elle est de \
+        {p}.",
     prior: "loi `{shape}` de moyenne {mean} et d'écart-type {std}",
     global_risks: "Risques globaux avec cette connaissance a priori et ces limites d'acceptation \
         : acceptation à tort {a} %, rejet à tort {b} %.",
@@ -157,14 +156,14 @@ pub(super) const WORDS: Words = Words {
         valeur n'est acceptée.",
     of_ilac_g8: [
         "ILAC-G8:09/2019, 4.2.2",
-        "U ayant k = {k} ; ILAC-G8:09/2019, 4.2.2, la prévoit pour U à 95 % environ",
+        "U avec k = {k} ; ILAC-G8:09/2019, 4.2.2, définit la bande de garde pour U à 95 % environ",
     ],
     rule_agreed: "La règle de décision a été convenue avec le client.",
     specification: "Spécification : {name}.",
     guarded: "Règle de décision : acceptation avec bande de garde (JCGM 106:2012, 8.3) pour {kind} d'au plus \
         {risk} % ; bande de garde {guard}, accepté {limits}.",
-    never: "Règle de décision : acceptation avec bande de garde (JCGM 106:2012, 8.3) pour {kind} d'au plus \
-        {risk} %, qu'aucune valeur n'a.",
+    never: "Règle de décision : acceptation avec bande de garde (JCGM 106:2012, 8.3) pour {kind} d'au \
+        plus {risk} % ; aucune valeur n'a un risque aussi petit.",
     kinds: ["un risque spécifique de fausse acceptation", "un risque global de fausse acceptation"],
 
     page: "Page {page} sur {pages}",

@@ -63,24 +63,22 @@ pub(super) const WORDS: Words = Words {
         mit dem vereinbarten Erweiterungsfaktor k = {k}. Die jeweils angegebene \
         Überdeckungswahrscheinlichkeit folgt aus der t-Verteilung mit den effektiven \
         Freiheitsgraden ν_eff.",
-    shortest: "Das angegebene \
-        Überdeckungsintervall ist das kürzeste mit einer Überdeckungswahrscheinlichkeit von {p}, ermittelt mit dem \
-        Monte-Carlo-Verfahren (JCGM 101:2008). U ist der Abstand des Werts vom weiter entfernten Ende, \
-        und k ist U geteilt durch die Standardmessunsicherheit, auf die Stellen, die die Versuche \
-        hergeben.",
-    without_trials: "Das angegebene Überdeckungsintervall \
-        hat eine Überdeckungswahrscheinlichkeit von {p}; es wurde durch Fortpflanzung der \
-        Verteilungen (JCGM 101:2008, Abschnitt 5) ohne Zufallsversuche ermittelt und ist das kürzeste, \
-        oder das symmetrische, wo dieses um weniger als 1 % länger ist. U ist der Abstand des Werts vom \
-        weiter entfernten Ende, und k ist U geteilt durch die Standardmessunsicherheit.",
+    shortest: "Das angegebene Überdeckungsintervall ist das kürzeste mit einer \
+        Überdeckungswahrscheinlichkeit von {p}, ermittelt mit dem Monte-Carlo-Verfahren (JCGM 101:2008). \
+        U ist der größere Abstand des Werts von einem Endpunkt des Intervalls; k = U/u.",
+    without_trials: "Das angegebene Überdeckungsintervall hat eine Überdeckungswahrscheinlichkeit von \
+        {p}. Es wurde durch Fortpflanzung der Verteilungen (JCGM 101:2008, Abschnitt 5) ohne \
+        Zufallsversuche ermittelt. Es ist das kürzeste Intervall oder das symmetrische, wenn dieses um \
+        weniger als 1 % länger ist. U ist der größere Abstand des Werts von einem Endpunkt des \
+        Intervalls; k = U/u.",
     propagation: "Die Standardmessunsicherheit wurde nach dem Fortpflanzungsgesetz der \
         Messunsicherheit (JCGM 100:2008) ermittelt, wie EA-4/02 M:2022 es verlangt.",
-    time: "Wie sich der Gegenstand auf Dauer verhält, ist in den Unsicherheiten nicht enthalten.",
+    time: "Die angegebenen Messunsicherheiten enthalten nicht die Langzeitstabilität des Gegenstands.",
     confirmed: "Das Monte-Carlo-Verfahren (JCGM 101:2008, Abschnitt 8) bestätigt diese Intervalle.",
-    rounding: "U hat {digits} ({rule}); der Wert ist auf dieselbe Stelle gerundet.",
+    rounding: "U ist auf {digits} angegeben ({rule}); der Wert ist auf dieselbe Stelle gerundet.",
     rules: [
         "kaufmännisch gerundet",
-        "kaufmännisch gerundet, aber aufgerundet, wo sonst mehr als 5 % wegfielen, EA-4/02 M:2022",
+        "kaufmännisch gerundet; aufgerundet, wenn U sonst um mehr als 5 % kleiner würde, EA-4/02 M:2022",
         "aufgerundet",
     ],
     kept: "U ist aufgerundet, da es sonst unter der kleinsten angebbaren Messunsicherheit (CMC) des \
@@ -97,7 +95,7 @@ pub(super) const WORDS: Words = Words {
     ],
     of_capability: [
         "mit ihrem Erweiterungsfaktor k = {k}",
-        "von ihrem Erweiterungsfaktor 2 auf k = {k} gebracht",
+        "von ihrem Erweiterungsfaktor 2 auf k = {k} umgerechnet",
     ],
     dof_list: "Effektive Freiheitsgrade ν_eff: {list}.",
     approximately: "annähernd {p}",
@@ -105,10 +103,10 @@ pub(super) const WORDS: Words = Words {
     function: "Kalibrierfunktion {name}",
     in_range: "{equation} für {low} ≤ x ≤ {high}, mit x und {name} als Zahlen in den angegebenen Einheiten.",
     band: "U ist die erweiterte Messunsicherheit der Funktion an der Stelle x mit dem Erweiterungsfaktor \
-        k = {k}; die einer weiteren Ablesung ist nicht enthalten. Zwischen den angegebenen Werten von x folgt \
-        sie aus u(x)² = g(x)' V g(x) mit den Ableitungen g nach den Parametern und deren \
-        Kovarianzmatrix V, die aus den Standardmessunsicherheiten und den Korrelationskoeffizienten r \
-        der Parameter besteht.",
+        k = {k}; die Messunsicherheit einer weiteren Ablesung ist nicht enthalten. Zwischen den \
+        angegebenen Werten von x folgt sie aus u(x)² = g(x)' V g(x). g sind die Ableitungen nach den \
+        Parametern; V ist deren Kovarianzmatrix aus ihren Standardmessunsicherheiten und \
+        Korrelationskoeffizienten r.",
     parameter: "Parameter",
     standard: "u",
     region: "Überdeckungsbereich",
@@ -120,18 +118,16 @@ pub(super) const WORDS: Words = Words {
     symbol: "Formelzeichen",
     meaning: "Bedeutung",
     correlation: "Korrelation der Zeilen",
-    correlated: "Zeilen mit gemeinsamen Eingangsgrößen sind korreliert. Die \
-        Standardmessunsicherheit der Differenz der Zeilen i und j folgt aus u² = u_i² + u_j² - 2 \
-        r u_i u_j mit den hier angegebenen Standardmessunsicherheiten u_i und u_j und dem \
-        Koeffizienten r. Es sind die nach dem Fortpflanzungsgesetz, von denen U_i / k_i \
-        abweichen kann.",
-    correlated_raised: "Wo U die kleinste angebbare Messunsicherheit des Laboratoriums ist, ist \
-        sie in u_i enthalten; was sie der ermittelten hinzufügt, gilt als unkorreliert mit den \
+    correlated: "Zeilen mit gemeinsamen Eingangsgrößen sind korreliert. Die Standardmessunsicherheit der \
+        Differenz der Zeilen i und j folgt aus u² = u_i² + u_j² - 2 r u_i u_j mit den hier angegebenen \
+        Standardmessunsicherheiten u_i und u_j und dem Koeffizienten r. Sie folgen aus dem \
+        Fortpflanzungsgesetz; U_i / k_i kann davon abweichen.",
+    correlated_raised: "Wenn U die kleinste angebbare Messunsicherheit des Laboratoriums ist, ist sie in \
+        u_i enthalten; ihr Zuschlag zur ermittelten Messunsicherheit gilt als unkorreliert mit den \
         anderen Zeilen.",
     shared: "Gemeinsam haben die Zeilen: {inputs}.",
-    many: "Einige der {rows} Zeilen haben gemeinsame Eingangsgrößen; Korrelationskoeffizienten \
-        und die Standardmessunsicherheiten, zu denen sie gehören, stehen in der JSON-Ausgabe und \
-        in der Arbeitsmappe.",
+    many: "Einige der {rows} Zeilen haben gemeinsame Eingangsgrößen; die Korrelationskoeffizienten und \
+        die zugehörigen Standardmessunsicherheiten stehen in der JSON-Ausgabe und in der Arbeitsmappe.",
     conformity: "Konformität",
     decided: ["konform", "nicht konform", "nicht nachgewiesen"],
     decisions: [
@@ -139,19 +135,19 @@ pub(super) const WORDS: Words = Words {
         "Das Ergebnis hält die Toleranz {limits} nicht ein: nicht konform.",
     ],
     not_shown: [
-        "Dass das Ergebnis die Toleranz {limits} einhält, ist nicht nachgewiesen: Es liegt innerhalb \
-            der Toleranz, aber außerhalb der Annahmegrenzen, und wird nach der Entscheidungsregel \
+        "Es ist nicht nachgewiesen, dass das Ergebnis die Toleranz {limits} einhält: Es liegt innerhalb \
+            der Toleranz, aber außerhalb der Annahmegrenzen. Nach der Entscheidungsregel wird es \
             zurückgewiesen.",
-        "Dass das Ergebnis die Toleranz {limits} einhält, ist nicht nachgewiesen: Es liegt innerhalb \
-            der Toleranz, aber die Entscheidungsregel nimmt keinen Wert an, und es wird zurückgewiesen.",
+        "Es ist nicht nachgewiesen, dass das Ergebnis die Toleranz {limits} einhält: Es liegt innerhalb \
+            der Toleranz, aber die Entscheidungsregel nimmt keinen Wert an. Das Ergebnis wird \
+            zurückgewiesen.",
     ],
     limits: ["von {low} bis {high}{unit}", "ab {low}{unit}", "bis {high}{unit}"],
     conforming: "Der Wert ist mit einer Wahrscheinlichkeit von {p} konform.",
-    all_the_same: "Spezifisches Risiko, dass der Wert dennoch konform ist: {p}.",
-    unrounded: "Entschieden wurde mit dem Wert vor der Rundung, {value}.",
-    with_prior: "Diese Wahrscheinlichkeit berücksichtigt, was vor der Messung über solche \
-        Gegenstände bekannt war (JCGM 106:2012, 6.3 und 7.1): {prior}. Aus dem Messwert und \
-        seiner Unsicherheit allein beträgt sie {p}.",
+    all_the_same: "Spezifisches Risiko, dass der zurückgewiesene Wert konform ist: {p}.",
+    unrounded: "Die Entscheidung wurde mit dem Wert vor der Rundung getroffen, {value}.",
+    with_prior: "Diese Wahrscheinlichkeit berücksichtigt das Vorwissen über solche Gegenstände (JCGM \
+        106:2012, 6.3 und 7.1): {prior}. Aus dem Messwert und seiner Unsicherheit allein beträgt sie {p}.",
     prior: "Verteilung `{shape}` mit Mittelwert {mean} und Standardabweichung {std}",
     global_risks: "Globale Risiken mit diesem Vorwissen und diesen Annahmegrenzen: irrtümliche \
         Annahme {a} %, irrtümliche Rückweisung {b} %.",
@@ -164,14 +160,14 @@ pub(super) const WORDS: Words = Words {
         angenommen.",
     of_ilac_g8: [
         "ILAC-G8:09/2019, 4.2.2",
-        "wobei U k = {k} hat; ILAC-G8:09/2019, 4.2.2, hat es für U mit etwa 95 %",
+        "U mit k = {k}; ILAC-G8:09/2019, 4.2.2, legt das Sicherheitsband für U mit etwa 95 % fest",
     ],
     rule_agreed: "Die Entscheidungsregel ist mit dem Kunden vereinbart.",
     specification: "Spezifikation: {name}.",
     guarded: "Entscheidungsregel: Annahme mit Sicherheitsband (JCGM 106:2012, 8.3) für {kind} von \
         höchstens {risk} %; Sicherheitsband {guard}, angenommen {limits}.",
-    never: "Entscheidungsregel: Annahme mit Sicherheitsband (JCGM 106:2012, 8.3) für {kind} von \
-        höchstens {risk} %, das kein Wert hat.",
+    never: "Entscheidungsregel: Annahme mit Sicherheitsband (JCGM 106:2012, 8.3) für {kind} von höchstens \
+        {risk} %; kein Wert hat ein so kleines Risiko.",
     kinds: [
         "ein spezifisches Risiko der irrtümlichen Annahme",
         "ein globales Risiko der irrtümlichen Annahme",

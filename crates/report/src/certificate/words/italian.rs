@@ -60,23 +60,22 @@ pub(super) const WORDS: Words = Words {
     agreed: "L'incertezza estesa U è l'incertezza tipo moltiplicata per il fattore di copertura \
         concordato k = {k}. La probabilità di copertura dichiarata con essa segue dalla \
         distribuzione t con i gradi di libertà effettivi ν_eff.",
-    shortest: "L'intervallo di copertura dichiarato è il più corto \
-        con una probabilità di copertura di {p}, trovato con il metodo Monte Carlo (JCGM 101:2008). U è la \
-        distanza del valore dall'estremo più lontano, e k è il rapporto fra U e l'incertezza tipo, con le \
-        cifre che le prove Monte Carlo giustificano.",
-    without_trials: "L'intervallo di copertura dichiarato ha una \
-        probabilità di copertura di {p}; è stato trovato con la propagazione delle distribuzioni (JCGM \
-        101:2008, punto 5) senza prove casuali, ed è il più corto, oppure quello simmetrico dove questo \
-        è più lungo di meno dell'1 %. U è la distanza del valore dall'estremo più lontano, e k è il \
-        rapporto fra U e l'incertezza tipo.",
-    propagation: "L'incertezza tipo è stata valutata con la legge di propagazione dell'incertezza \
-        (JCGM 100:2008), come chiede EA-4/02 M:2022.",
-    time: "Le incertezze non comprendono il comportamento dell'oggetto nel tempo.",
+    shortest: "L'intervallo di copertura dichiarato è il più corto con una probabilità di copertura di \
+        {p}, trovato con il metodo Monte Carlo (JCGM 101:2008). U è la distanza maggiore del valore da un \
+        estremo dell'intervallo; k = U/u.",
+    without_trials: "L'intervallo di copertura dichiarato ha una probabilità di copertura di {p}. È stato \
+        trovato con la propagazione delle distribuzioni (JCGM 101:2008, punto 5) senza prove casuali. È \
+        l'intervallo più corto, oppure quello simmetrico se questo è più lungo di meno dell'1 %. U è la \
+        distanza maggiore del valore da un estremo dell'intervallo; k = U/u.",
+    propagation: "L'incertezza tipo è stata valutata con la legge di propagazione dell'incertezza (JCGM \
+        100:2008), come richiesto da EA-4/02 M:2022.",
+    time: "Le incertezze dichiarate non comprendono la stabilità a lungo termine dell'oggetto.",
     confirmed: "Il metodo Monte Carlo (JCGM 101:2008, punto 8) conferma questi intervalli.",
-    rounding: "U ha {digits} ({rule}); il valore è arrotondato alla stessa cifra.",
+    rounding: "U è data con {digits} ({rule}); il valore è arrotondato alla stessa cifra.",
     rules: [
         "arrotondamento al più vicino",
-        "arrotondamento al più vicino, ma per eccesso dove altrimenti si perderebbe più del 5 %, EA-4/02 M:2022",
+        "arrotondamento al più vicino; per eccesso se altrimenti U si ridurrebbe di più del 5 %, EA-4/02 \
+         M:2022",
         "arrotondamento per eccesso",
     ],
     kept: "U è arrotondata per eccesso, poiché altrimenti sarebbe minore della capacità di misura e \
@@ -91,17 +90,17 @@ pub(super) const WORDS: Words = Words {
     ],
     of_capability: [
         "con il fattore di copertura k = {k} della capacità",
-        "riportata dal suo fattore di copertura 2 a k = {k}",
+        "convertita dal suo fattore di copertura 2 a k = {k}",
     ],
     dof_list: "Gradi di libertà effettivi ν_eff: {list}.",
     approximately: "circa {p}",
 
     function: "Funzione di taratura {name}",
     in_range: "{equation} per {low} ≤ x ≤ {high}, dove x e {name} sono numeri nelle unità dichiarate.",
-    band: "U è l'incertezza estesa della funzione in x, con il fattore di copertura k = {k}; non comprende \
-        quella di una lettura ulteriore. Fra i valori di x dichiarati segue da u(x)² = g(x)' V g(x), con le \
-        derivate g rispetto ai parametri e la loro matrice di covarianza V, formata dalle incertezze tipo e \
-        dai coefficienti di correlazione r dei parametri.",
+    band: "U è l'incertezza estesa della funzione in x, con il fattore di copertura k = {k}; non \
+        comprende quella di una lettura ulteriore. Fra i valori di x dichiarati segue da u(x)² = g(x)' V \
+        g(x). g sono le derivate rispetto ai parametri; V è la loro matrice di covarianza, formata dalle \
+        loro incertezze tipo e dai loro coefficienti di correlazione r.",
     parameter: "parametro",
     standard: "u",
     region: "Regione di copertura",
@@ -113,16 +112,15 @@ pub(super) const WORDS: Words = Words {
     symbol: "simbolo",
     meaning: "significato",
     correlation: "Correlazione fra le righe",
-    correlated: "Le righe che hanno grandezze d'ingresso in comune sono correlate. L'incertezza \
-        tipo della differenza fra le righe i e j segue da u² = u_i² + u_j² - 2 r u_i u_j, con le \
-        incertezze tipo u_i e u_j e il coefficiente r dichiarati qui. Sono quelli della legge di \
-        propagazione, da cui U_i / k_i può differire.",
-    correlated_raised: "Dove U è la capacità del laboratorio, u_i la contiene, e ciò che essa \
-        aggiunge all'incertezza valutata si suppone non correlato con le altre righe.",
+    correlated: "Le righe che hanno grandezze d'ingresso in comune sono correlate. L'incertezza tipo \
+        della differenza fra le righe i e j segue da u² = u_i² + u_j² - 2 r u_i u_j, con le incertezze \
+        tipo u_i e u_j e il coefficiente r dichiarati qui. Provengono dalla legge di propagazione; U_i / \
+        k_i può differirne.",
+    correlated_raised: "Se U è la capacità del laboratorio, u_i la contiene; ciò che essa aggiunge \
+        all'incertezza valutata si suppone non correlato con le altre righe.",
     shared: "Le righe hanno in comune: {inputs}.",
-    many: "Alcune delle {rows} righe hanno grandezze d'ingresso in comune; i coefficienti di \
-        correlazione, e le incertezze tipo che vanno con essi, sono nella risposta JSON e nella \
-        cartella di lavoro.",
+    many: "Alcune delle {rows} righe hanno grandezze d'ingresso in comune; i coefficienti di correlazione \
+        e le incertezze tipo corrispondenti sono nella risposta JSON e nella cartella di lavoro.",
     conformity: "Conformità",
     decided: ["conforme", "non conforme", "non dimostrato"],
     decisions: [
@@ -131,17 +129,16 @@ pub(super) const WORDS: Words = Words {
     ],
     not_shown: [
         "La conformità del risultato alla tolleranza {limits} non è dimostrata: esso è entro la \
-            tolleranza, ma fuori dai limiti di accettazione, ed è respinto secondo la regola decisionale.",
+            tolleranza, ma fuori dai limiti di accettazione. La regola decisionale lo respinge.",
         "La conformità del risultato alla tolleranza {limits} non è dimostrata: esso è entro la \
-            tolleranza, ma la regola decisionale non accetta alcun valore, ed è respinto.",
+            tolleranza, ma la regola decisionale non accetta alcun valore. Il risultato è respinto.",
     ],
     limits: ["da {low} a {high}{unit}", "da {low}{unit} in su", "fino a {high}{unit}"],
     conforming: "Il valore è conforme con una probabilità di {p}.",
-    all_the_same: "Rischio specifico che il valore sia nondimeno conforme: {p}.",
-    unrounded: "Si è deciso con il valore prima dell'arrotondamento, {value}.",
-    with_prior: "Questa probabilità tiene conto di ciò che si sapeva di tali oggetti prima della \
-        misura (JCGM 106:2012, 6.3 e 7.1): {prior}. Dal valore misurato e dalla sua incertezza \
-        soltanto è {p}.",
+    all_the_same: "Rischio specifico che il valore respinto sia conforme: {p}.",
+    unrounded: "La decisione è stata presa con il valore prima dell'arrotondamento, {value}.",
+    with_prior: "Questa probabilità tiene conto della conoscenza a priori di tali oggetti (JCGM 106:2012, \
+        6.3 e 7.1): {prior}. Dal valore misurato e dalla sua incertezza soltanto è {p}.",
     prior: "distribuzione `{shape}` con media {mean} e scarto tipo {std}",
     global_risks: "Rischi globali con questa conoscenza a priori e questi limiti di \
         accettazione: falsa accettazione {a} %, falso rifiuto {b} %.",
@@ -154,14 +151,14 @@ pub(super) const WORDS: Words = Words {
         valore è accettato.",
     of_ilac_g8: [
         "ILAC-G8:09/2019, 4.2.2",
-        "U avendo k = {k}; ILAC-G8:09/2019, 4.2.2, la prevede per U al 95 % circa",
+        "U con k = {k}; ILAC-G8:09/2019, 4.2.2, definisce la banda di guardia per U al 95 % circa",
     ],
     rule_agreed: "La regola decisionale è stata concordata con il cliente.",
     specification: "Specifica: {name}.",
     guarded: "Regola decisionale: accettazione con banda di guardia (JCGM 106:2012, 8.3) per {kind} non \
         superiore a {risk} %; banda di guardia {guard}, accettato {limits}.",
     never: "Regola decisionale: accettazione con banda di guardia (JCGM 106:2012, 8.3) per {kind} non \
-        superiore a {risk} %, che nessun valore ha.",
+        superiore a {risk} %; nessun valore ha un rischio così piccolo.",
     kinds: [
         "un rischio specifico di falsa accettazione",
         "un rischio globale di falsa accettazione",

@@ -84,23 +84,24 @@ fn signals(test: &ProficiencyTest) -> String {
 
 /// What the scores are.
 pub(in crate::compare) fn explained(test: &ProficiencyTest) -> String {
-    let mut said = "By ISO 13528:2022: z is the deviation from the assigned value over the standard \
-        deviation for proficiency assessment. z' includes the uncertainty of the assigned value, and \
-        decides if that is above 0.3 of the standard deviation. A modulus up to 2 is satisfactory, \
-        one between 2 and 3 gives a warning signal, and one from 3 an action signal. Zeta is the \
-        deviation over its standard uncertainty, En over its expanded uncertainty (k = 2, \
-        satisfactory up to 1); both need the participant's uncertainty."
+    let mut said = "By ISO 13528:2022: z is the deviation from the assigned value divided by the \
+        standard deviation for proficiency assessment. z' includes the uncertainty of the \
+        assigned value, and decides if this uncertainty is above 0.3 of the standard deviation. A \
+        modulus up to 2 is satisfactory, one between 2 and 3 gives a warning signal, and one from \
+        3 an action signal. Zeta is the deviation divided by its standard uncertainty, En divided \
+        by its expanded uncertainty (k = 2, satisfactory up to 1); both need the participant's \
+        uncertainty."
         .to_owned();
     if !matches!(test.assigned.by, AssignedBy::Stated { .. }) {
         said.push_str(
-            " The assigned value depends on the results, which its uncertainty in zeta and En does \
-             not consider.",
+            " The assigned value depends on the results; zeta and En do not include this \
+             correlation.",
         );
     }
     if test.sigma_by == SigmaBy::NormalizedIqr || test.assigned.by == AssignedBy::Median {
         said.push_str(
-            " Quartiles are interpolated linearly between the results in order, the first and the \
-             last of which are the quantiles for 0 and 1.",
+            " Quartiles are interpolated linearly between the ordered results; the first and the \
+             last are the quantiles for 0 and 1.",
         );
     }
     said

@@ -91,9 +91,9 @@ fn frame(area: &Area<'_>, (x, y): (f64, f64), width: f64) -> Drawn {
 
 fn caption(confused: &Confused) -> String {
     let mut caption =
-        "Truths (rows) and verdicts (columns, with the numbers of the rows): number of \
-                       draws, darker the larger its share of the row. Frames: the verdict is the \
-                       truth; in the row \"unexplained\" the effect had been taken out of the list."
+        "Truths (rows) and verdicts (columns, with the numbers of the rows): number of draws, \
+                       darker for a larger share of the row. Frames: the verdict is the truth; in \
+                       the row \"unexplained\" the effect was removed from the list."
             .to_owned();
     if confused.as_good > 0 {
         caption += &format!(
@@ -105,8 +105,8 @@ fn caption(confused: &Confused) -> String {
     if confused.together {
         let [all, same] = confused.several;
         caption += &format!(
-            " Several effects are taken together: of the {all} verdicts in their frame, {same} name \
-             just the true ones."
+            " Several effects are taken together: of the {all} verdicts in their frame, {same} \
+             name exactly the true ones."
         );
     }
     caption

@@ -36,13 +36,13 @@ fn page(
     let mut verdict = vec![words::verdict(report)];
     verdict.extend(words::beside(report));
     page.blocks.push(Block::Verdict(verdict));
-    page.section("What was done");
+    page.section("Method");
     page.text(words::done(design, report));
     page.section("Scores");
     page.table(sheets::scores(report));
     page.text(words::RIGHT);
     page.text(words::SCORES);
-    page.section("Do probabilities mean what they say?");
+    page.section("Calibration of the probabilities");
     page.table(sheets::reliability(report));
     page.text(words::reliability(report));
     page.picture(|| Some(reliability::draw(report)), || None);

@@ -27,7 +27,7 @@ pub(super) fn draw(report: &BlindCheckScores) -> Drawing {
             let square = area.margin(0, 0, side, side);
             let panel = Panel {
                 x: (&axis, "mean probability of the verdicts".to_owned()),
-                y: (&axis, "share that was right".to_owned()),
+                y: (&axis, "share of right verdicts".to_owned()),
                 marks: [6, 6],
                 title: String::new(),
             };
@@ -53,9 +53,9 @@ pub(super) fn draw(report: &BlindCheckScores) -> Drawing {
             Ok(())
         })
     };
-    let caption = "Share of right verdicts against the probability that they were given with, in bins \
-                   of a tenth; the numbers beside the dots are those of verdicts. Bars: 95 % interval \
-                   of the binomial share (Wilson). Diagonal: probabilities that mean what they say."
+    let caption = "Share of right verdicts against their stated probability, in bins of 0.1; the \
+                   numbers beside the dots are numbers of verdicts. Bars: 95 % interval of the \
+                   binomial share (Wilson). Diagonal: perfect calibration."
         .to_owned();
     Drawing::new(caption, drawn)
 }

@@ -52,7 +52,7 @@ pub(super) fn scores(report: &BlindCheckScores) -> Sheet {
         score("intervals that hold the true parameter", report.interval_coverage, report.intervals),
         score("gap left, median", report.left, with_gap),
         score("corrections worse than none", report.worse_than_none, with_gap),
-        score("claimed less true fraction removed", report.claim_bias, fractions),
+        score("claimed minus true removed fraction", report.claim_bias, fractions),
     ];
     // without a count there is nothing to show
     let shown = |score: &Score, value: f64| {
@@ -93,7 +93,7 @@ pub(super) fn wrong(wrong: &[Wrong]) -> Option<Sheet> {
     sheet.text("truth", shown.iter().map(|kind| kind.truth.name()));
     sheet.text("verdict", shown.iter().map(|kind| kind.said.name()));
     sheet.numbers("draws", shown.iter().map(|kind| kind.count.to_string()));
-    sheet.numbers("of this\ntruth", shown.iter().map(|kind| kind.of.to_string()));
+    sheet.numbers("with this\ntruth", shown.iter().map(|kind| kind.of.to_string()));
     Some(sheet)
 }
 

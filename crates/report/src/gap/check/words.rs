@@ -34,7 +34,7 @@ pub(super) fn verdict(report: &BlindCheckScores) -> String {
         share(report.top1)
     );
     said += &if report.gap_free == 0 {
-        "No draw was without a gap, so that nothing is known of false alarms.".to_owned()
+        "Every draw had a gap, so the rate of false alarms is unknown.".to_owned()
     } else {
         let [low, high] = report.false_alarms_interval().map(share);
         format!(
@@ -53,8 +53,8 @@ pub(super) fn beside(report: &BlindCheckScores) -> Option<String> {
     let of = report.beside;
     (of.drawn > 0).then(|| {
         format!(
-            "Where one of two effects had been taken out of the list, the verdict named the other one in {} \
-             of {} data sets; in {} it had a probability below 0.01.",
+            "If one of two effects was removed from the list, the verdict named the other one in \
+             {} of {} data sets; in {} its probability was below 0.01.",
             of.listed_effect_named, of.drawn, of.lost
         )
     })
@@ -80,15 +80,16 @@ pub(super) fn done(design: &CheckedDesign, report: &BlindCheckScores) -> String 
     let noise = match design.noise {
         CheckedNoise::AsStated => "the stated uncertainties",
         CheckedNoise::Uncertain => {
-            "noise that was drawn too (as stated, uncertainties off by a factor, single rows off, \
-             neighbours correlated)"
+            "noise that was also drawn (as stated, with uncertainties wrong by a factor, with \
+             outlying rows, with correlated neighbours)"
         }
     };
     format!(
-        "Truths were drawn from the case's own prior and its list of {} candidate {effects}: {none} \
-         without a gap, {one} with one effect, {two} with two, {withheld} with an effect that was then \
-         taken out of the list, {beside} with two of which one was. Each made data with {noise} at the case's design: {} {rows} of {}{}. \
-         The data were diagnosed without the truths, which were opened afterwards.",
+        "Truths were drawn from the case's own prior and its list of {} candidate {effects}: \
+         {none} without a gap, {one} with one effect, {two} with two, {withheld} with an effect \
+         that was then removed from the list, {beside} with two effects of which one was removed. \
+         Data were simulated from each truth with {noise} at the case's design: {} {rows} of \
+         {}{}. They were diagnosed without the truths, which were compared afterwards.",
         design.effects,
         design.rows,
         outputs.join(", "),
@@ -110,25 +111,26 @@ fn over(design: &CheckedDesign) -> String {
 }
 
 /// When a verdict is right.
-pub(super) const RIGHT: &str = "A verdict is right if it names just the effects that were drawn. Where the effect had been \
-     taken out of the list it is right if it is \"unexplained\", or if it names something that \
-     predicts within the uncertainties; where one of two had been, if it names the other one, with \
-     something beside it or not, or predicts within the uncertainties.";
+pub(super) const RIGHT: &str = "A verdict is right if it names exactly the effects that were \
+     drawn. If the effect was removed from the list, the verdict is right if it is \
+     \"unexplained\" or predicts within the uncertainties. If one of two effects was removed, it \
+     is right if it names the other one, alone or with a discrepancy, or predicts within the \
+     uncertainties.";
 
 /// What the scores are.
-pub(super) const SCORES: &str = "Brier score: sum of the squared errors of all hypotheses' probabilities, 0 is best. ln \
-     probability of the truth: 0 is best; less than 1e-6 counts as 1e-6. Intervals of parameters \
-     are counted where the verdict names just the true effects. Gap left: root mean square error of \
-     the corrected prediction over that of the sim, without noise, where there was a gap. Claimed \
-     less true fraction removed: mean where the gap was at least 3 standard uncertainties; claims \
-     above zero promise too much.";
+pub(super) const SCORES: &str = "Brier score: sum of the squared errors of all hypotheses' \
+     probabilities; 0 is best. ln probability of the truth: 0 is best; less than 1e-6 counts as \
+     1e-6. Intervals of parameters are counted if the verdict names exactly the true effects. Gap \
+     left: root mean square error of the corrected prediction divided by the error of the sim, \
+     without noise, if there was a gap. Claimed minus true removed fraction: mean for gaps of at \
+     least 3 standard uncertainties; above zero, too much was claimed.";
 
 /// Whether probabilities mean what they say.
 pub(super) fn reliability(report: &BlindCheckScores) -> String {
     format!(
-        "Of verdicts with the probability p a share p should be right. Their mean distance is {}; that \
-         of a perfect diagnosis with as many draws and the same probabilities is {} (median), by \
-         chance alone.",
+        "A share p of the verdicts with the probability p should be right. The mean distance from \
+         this is {}; a perfect diagnosis with as many draws and the same probabilities has {} \
+         (median), by chance alone.",
         share(report.calibration_error),
         share(report.perfect_calibration_error)
     )
@@ -149,7 +151,7 @@ pub(super) fn left_out(wrong: &[Wrong]) -> Option<String> {
 }
 
 /// What the smallest effects are.
-pub(super) const SMALLEST: &str = "Size of a parameter at which its effect, acting alone, is named with 90 % probability, and \
-     the root mean square of what it then changes, in standard uncertainties u of the data. No \
-     number: too few draws of this effect, all or hardly any of them found, or, for the size, \
-     other parameters matter more.";
+pub(super) const SMALLEST: &str = "Size of a parameter at which its effect, acting alone, is \
+     named with 90 % probability, and the root mean square of the change that it makes, in \
+     standard uncertainties u of the data. No number: too few draws of this effect, almost all or \
+     almost none of them found, or, for the size, other parameters matter more.";

@@ -53,11 +53,11 @@ pub(in crate::gap) fn draw(diagnosis: &Diagnosis) -> Drawing {
         })
     };
     let mut caption =
-        "Posterior probability of each hypothesis (bar) and its prior (upright line). \
-                       Strong blue: the verdict"
+        "Posterior probability (bar) and prior (vertical line) of each hypothesis. Strong blue: \
+                       the verdict"
             .to_owned();
     if verdict.indistinguishable.len() > 1 {
-        caption.push_str("; faint blue: what these data cannot tell from it");
+        caption.push_str("; faint blue: hypotheses that these data cannot distinguish from it");
     }
     caption.push_str("; grey: the others.");
     Drawing::new(caption, drawn)

@@ -88,9 +88,8 @@ pub(in crate::gap) fn draw(diagnosis: &Diagnosis) -> Option<Drawing> {
         })
     };
     let caption = format!(
-        "Parameters of the verdict: estimate (dot) and {} interval. First line: the verdict; below \
-         it, what the hypotheses say that these data cannot tell from it and that have the same \
-         parameter.",
+        "Parameters of the verdict: estimate (dot) and {} interval. First line: the verdict. \
+         Below it: hypotheses with the same parameter that these data cannot distinguish from it.",
         digits::percent(diagnosis.probability)
     );
     Some(Drawing::new(caption, drawn))

@@ -58,11 +58,11 @@ pub(in crate::gap) fn draw(diagnosis: &Diagnosis, output: usize) -> Option<Drawi
     let marks = panels.iter().map(|(over, groups, _)| (*over, groups));
     let marks = groups::captions(diagnosis, marks);
     let caption = format!(
-        "{}: measured (dark marks{}), what the sim says (red) and what the corrected sim says \
-         (blue); lines join what differs in this condition alone.{}",
+        "{}: measured (dark marks{}), predicted by the sim (red) and by the corrected sim (blue); \
+         lines join points that differ only in this condition.{}",
         plain(&named.name),
         if panels.iter().any(|(_, _, points)| has_bars(points)) {
-            " with two standard uncertainties on either side"
+            " with ± two standard uncertainties"
         } else {
             ""
         },

@@ -97,9 +97,9 @@ pub(in crate::gap) fn draw(
         })
     };
     let caption = format!(
-        "Corrected prediction of {} (full marks, blue) with two standard uncertainties on either side, \
-         averaged over the hypotheses by their probability; what the sim says as it was (dashes, red) \
-         and what was measured (open marks).{}",
+        "Corrected prediction of {} (full marks, blue) with ± two standard uncertainties, \
+         averaged over the hypotheses by their probability; uncorrected sim (dashes, red) and \
+         measured values (open marks).{}",
         crate::plain(&named.name),
         groups.caption(&crate::plain(&diagnosis.conditions[finest].name))
     );

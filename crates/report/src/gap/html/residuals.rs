@@ -94,18 +94,19 @@ pub(in crate::gap) fn draw(diagnosis: &Diagnosis, output: usize) -> Option<Drawi
     let marks = if many {
         "Each stroke spans the residuals of neighbouring values."
     } else {
-        "Full marks lie further from zero than twice their own standard uncertainty."
+        "Full marks are further from zero than twice their own standard uncertainty."
     };
     let scale = if divided {
-        ", over their standard uncertainties, which differ too much between the rows for one scale"
+        ", divided by their standard uncertainties, which differ too much between the rows for \
+         one scale"
     } else {
         ""
     };
     let caption = format!(
-        "Residuals of {}, measured less predicted{scale}, before (left, or above) and after the correction \
-         (right, or below, each predicted by a fit without its own block of conditions). Band: two standard \
-         uncertainties of the residuals on either side of zero, those of the noise and of the inputs \
-         before, of the noise and of what was fitted after. {marks}{told_apart}",
+        "Residuals of {}, measured less predicted{scale}, before (left, or above) and after the \
+         correction (right, or below, each predicted by a fit without its own block of \
+         conditions). Band: ± two standard uncertainties of the residuals, from the noise and the \
+         inputs before, from the noise and the fitted parameters after. {marks}{told_apart}",
         plain(&named.name)
     );
     Some(Drawing::new(caption, drawn))

@@ -59,9 +59,8 @@ pub(in crate::gap) fn draw(diagnosis: &Diagnosis) -> Option<Drawing> {
             Ok(())
         })
     };
-    let caption = "What makes how much of the gap: the mean square of the residuals, in standard \
-                   uncertainties and with the inputs at what the data say of them, and by how much of it \
-                   each part lowers it, taken out of the data one after the other. All parts were fitted \
-                   together.";
+    let caption = "Parts of the gap: mean square of the residuals, in standard uncertainties with \
+                   the inputs at their posterior estimates, and its decrease if each part is \
+                   subtracted from the data, one after the other. All parts were fitted together.";
     Some(Drawing::new(caption.to_owned(), drawn))
 }

@@ -102,9 +102,9 @@ pub(in crate::gap) fn draw(diagnosis: &Diagnosis) -> Option<Drawing> {
     };
     let caption = format!(
         "Root mean square residuals before (square) and after (dot, with its {} interval) the \
-         correction, over the noise floor (upright line); on the right in their units, all outputs \
-         together in standard uncertainties u. Each value was predicted by a fit without its own \
-         block of conditions.",
+         correction, divided by the noise floor (vertical line). On the right: in their units, \
+         all outputs together in standard uncertainties u. Each value was predicted by a fit \
+         without its own block of conditions.",
         digits::percent(diagnosis.probability)
     );
     Some(Drawing::new(caption, drawn))

@@ -135,14 +135,14 @@ pub(in crate::gap) fn draw(diagnosis: &Diagnosis) -> Option<Drawing> {
         })
     };
     let mut caption =
-        "Where the gap lies: root mean square of the residuals before the correction \
-                       over their standard uncertainties, by output and condition; about 1 is \
-                       expected."
+        "Location of the gap: root mean square of the residuals before the correction, divided by \
+                       their standard uncertainties, by output and condition; about 1 is expected \
+                       without a gap."
             .to_owned();
     if !diagnosis.regions.is_empty() {
         caption.push_str(
-            " Frames: regions that stand out, with the probability p that data without a gap have \
-             one as surprising anywhere.",
+            " Frames: notable regions, with the probability p of an equally surprising region \
+             anywhere in data without a gap.",
         );
     }
     Some(Drawing::new(caption, drawn))

@@ -6,17 +6,15 @@ use super::{diagnosis, json, provenance, unexplained, with_something_beside};
 fn a_departure_is_told_in_words() {
     let page = crate::gap::table(&unexplained(), &provenance()).replace('\n', " ");
     for wanted in [
-        "What the departure looks like",
-        "With probability 0.912: a_x departs by what is a share of its sim, stepping down over f near \
-         71.5 Hz, over a factor of 3.5 of it; root mean square 1.2 %, beside delay.",
-        "With probability 0.068: a_x and ratio depart by what is added to the sim, rising with the \
-         sim's own value, each in its own way, over a length of 4.6 m/s^2; root mean square 0.12 m/s^2.",
+        "Form of the departure",
+        "With probability 0.912: a_x departs by a share of the sim, stepping down over f near 71.5 Hz, \
+         over a factor of 3.5 of it; root mean square 1.2 %, beside delay.",
+        "With probability 0.068: a_x and ratio depart by an added term, rising with the sim's own \
+         value, different in each, over a length of 4.6 m/s^2; root mean square 0.12 m/s^2.",
     ] {
         assert!(page.contains(wanted), "{wanted}\n{page}");
     }
-    assert!(
-        !crate::gap::table(&diagnosis(), &provenance()).contains("What the departure looks like")
-    );
+    assert!(!crate::gap::table(&diagnosis(), &provenance()).contains("Form of the departure"));
 }
 
 #[test]
@@ -38,10 +36,10 @@ fn a_departure_is_in_the_answer() {
 fn what_is_left_beside_the_effects_is_in_the_headline() {
     let page = crate::gap::table(&with_something_beside(), &provenance()).replace('\n', " ");
     for wanted in [
-        "There is a gap: low-pass and delay are there (probability 0.988) and make 97 % of it; something \
-         else is left beside them (probability 0.977, 2 % of the gap): a_x and ratio depart by what is \
-         added to the sim, rising with the sim's own value",
-        "low-pass 91 %, delay 6 %, what has no name 2 %, noise 1 %.",
+        "There is a gap. low-pass and delay are present (probability 0.988) and explain 97 % of it. \
+         Something else remains (probability 0.977, 2 % of the gap): a_x and ratio depart by an \
+         added term, rising with the sim's own value",
+        "low-pass 91 %, delay 6 %, unnamed discrepancy 2 %, noise 1 %.",
         "low-pass + delay, and something beside",
     ] {
         assert!(page.contains(wanted), "{wanted}\n{page}");

@@ -529,21 +529,21 @@ fn assert_sentences(answer: &Value, text: &str) {
     };
     assert_rounded(&after("explains it (probability"), &answer["verdict"]["probability"]);
     let group = &answer["verdict"]["group_probability"];
-    assert_rounded(&after("All of them together have the probability"), group);
+    assert_rounded(&after("Together they have the probability"), group);
     assert_rounded(&after("in variances of the repeats with"), &answer["gap"]["dof"]);
     assert_rounded(&after("sum of squares"), &answer["gap"]["chi2"]);
     assert_rounded(&after("degrees of freedom, p ="), &answer["gap"]["p_value"]);
     let shrinks = &answer["shrinks"];
-    assert_rounded(&after("after lies between"), &shrinks["rms_after_interval"][0]);
+    assert_rounded(&after("of all outputs is between"), &shrinks["rms_after_interval"][0]);
     assert_rounded(&after("and 1"), &serde_json::json!(0.26)); // 1.26, the other end
-    assert_rounded(&after("left out rises by"), &shrinks["log_density_gain"]);
+    assert_rounded(&after("left-out values increases by"), &shrinks["log_density_gain"]);
     assert_rounded(&after("is expected to be"), &shrinks["claimed_fraction"]);
-    assert_rounded(&after("left its own block of conditions out ("), &shrinks["blocks"]);
+    assert_rounded(&after("without its own block of conditions ("), &shrinks["blocks"]);
     let next = &answer["next_measurement"][0];
-    assert_rounded(&after("Most is expected of this:"), &next["count"]);
+    assert_rounded(&after("Most informative next step:"), &next["count"]);
     assert_rounded(&after("rows at f ="), &next["conditions"]["f"]);
-    assert_rounded(&after("the entropy of their probabilities,"), &answer["entropy"]);
+    assert_rounded(&after("entropy of their probabilities:"), &answer["entropy"]);
     let noise = &answer["noise"]["ratio"];
     assert_rounded(&after("Estimated noise of ratio:"), &noise["standard_uncertainty"]);
-    assert_rounded(&after("growing with the power"), &noise["power"]);
+    assert_rounded(&after("proportional to its power"), &noise["power"]);
 }

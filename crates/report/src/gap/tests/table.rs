@@ -48,7 +48,7 @@ fn long_and_hostile_names_stay_on_the_page() {
 fn what_is_hardly_there_has_a_page() {
     let text = page(&bare());
     assert!(text.contains("There is no gap"), "{text}");
-    assert!(text.contains("so there is no test"), "{text}");
+    assert!(text.contains("so the residuals cannot be tested"), "{text}");
     assert!(!text.contains("NaN") && !text.contains("inf"), "{text}");
     let text = page(&unexplained());
     assert!(
@@ -73,7 +73,10 @@ fn headlines_are_no_surer_than_their_probabilities() {
         .sum();
     assert!(explained > 0.454, "{explained}");
     let text = page(&unsure).split_whitespace().collect::<Vec<_>>().join(" ");
-    assert!(text.contains("more probable than any one of them (probability 0.454)"), "{text}");
+    assert!(
+        text.contains("No candidate effect explains it (probability 0.454): this is more probable"),
+        "{text}"
+    );
     let mut off = bare();
     off.outputs = vec![named("a_x", "m/s^2")];
     for (probability, said) in
@@ -85,7 +88,7 @@ fn headlines_are_no_surer_than_their_probabilities() {
         off.noise = vec![noise];
         let text = page(&off).split_whitespace().collect::<Vec<_>>().join(" ");
         assert!(text.contains(said), "{text}");
-        assert!(text.contains("limit of what is weighed (0.25 to 1000 times"), "{text}");
+        assert!(text.contains("limit of the tried factors (0.25 to 1000)"), "{text}");
     }
 }
 
@@ -160,8 +163,8 @@ fn a_headline_below_one_half_says_that_it_is_not_decided() {
     let text = with(0.2);
     assert!(
         text.contains(
-            "Whether there is a gap is not decided: that offset makes one is only the most probable of \
-             several hypotheses (probability 0.247; gain 0.240, no candidate effect 0.200, no gap \
+            "It is not decided whether there is a gap: offset is only the most probable of several \
+             hypotheses (probability 0.247; gain 0.240, no candidate effect 0.200, no gap \
              0.200)."
         ),
         "{text}"
@@ -189,8 +192,8 @@ fn a_headline_above_one_half_says_where_no_gap_is_possible() {
         page(&unsure).split_whitespace().collect::<Vec<_>>().join(" ")
     };
     let text = with(0.3);
-    let said = "Whether there is a gap is not decided: that offset makes one has the probability 0.640, \
-                and that there is none 0.300.";
+    let said = "It is not decided whether there is a gap: the probability that offset makes a gap is 0.640, \
+                and the probability of no gap is 0.300.";
     assert!(text.contains(said), "{text}");
     let text = with(0.04);
     assert!(text.contains("There is a gap, and offset explains it (probability 0.640)."), "{text}");
@@ -200,15 +203,15 @@ fn a_headline_above_one_half_says_where_no_gap_is_possible() {
 #[test]
 fn a_condition_without_a_range_is_told() {
     let mut without = diagnosis();
-    assert!(page(&without).contains("wherever they can be set"));
+    let text_of = |of: &_| page(of).split_whitespace().collect::<Vec<_>>().join(" ");
+    assert!(text_of(&without).contains("the same function of all conditions"));
     without.next.without_range = vec![0];
-    let text = page(&without).split_whitespace().collect::<Vec<_>>().join(" ");
-    assert!(!text.contains("wherever they can be set"), "{text}");
+    let text = text_of(&without);
+    assert!(!text.contains("the same function of all conditions"), "{text}");
     assert!(
         text.contains(
-            "No range is stated for f, so that only the values of the data count as what can be set and \
-             proposals stay there. If it can be set to others, say so in the case, and they are tried: \
-             \"f\": {..., \"range\": [lowest, highest]}."
+            "No range is stated for f, so proposals use only the values of the data. If other values can \
+             be set, state the range in the case: \"f\": {..., \"range\": [lowest, highest]}."
         ),
         "{text}"
     );
@@ -222,8 +225,8 @@ fn copied_rows_stand_beside_the_verdict() {
     let fact = fact!("copied-rows.one", copy = 8_usize, first = 7_usize, said);
     copied.notes.push(DiagnosisNote { fact });
     let page = page(&copied);
-    assert_eq!(page.matches("Row 8 has the conditions and").count(), 1);
-    assert!(page.find("Row 8 has").unwrap() < page.find("The sim").unwrap(), "{page}");
+    assert_eq!(page.matches("Row 8 repeats the conditions and").count(), 1);
+    assert!(page.find("Row 8 repeats").unwrap() < page.find("\nModel\n").unwrap(), "{page}");
 }
 
 /// The run at the verdict stands on the page and in JSON, and no row is proposed.
@@ -243,10 +246,10 @@ fn a_simulator_is_shown_at_the_verdict() {
     let page = page(&diagnosis);
     let page = page.split_whitespace().collect::<Vec<_>>().join(" ");
     for said in [
-        "The data depart from it by 0.958 standard uncertainties (root mean square).",
-        "What the 139 runs tell of its outputs is off by 0.034 standard uncertainties there",
+        "The data differ from it by 0.958 standard uncertainties (root mean square).",
+        "The prediction from the 139 runs differs from this run by 0.034 standard uncertainties",
         "length m 0.500123",
-        "The rows of a simulator belong together, so that no single one is proposed",
+        "The rows of a simulator belong together, so no single row is proposed",
     ] {
         assert!(page.contains(said), "{said}\n{page}");
     }

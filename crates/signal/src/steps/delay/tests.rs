@@ -239,7 +239,7 @@ fn impossible_searches_are_refused() {
     assert_eq!(
         refused(100).to_string(),
         "a cross-spectrum of 100 segments takes 1 whole period for each, 100 in all, and the signals \
-         have 37 in common; ask for 37 segments at most"
+         have 37 in common; use at most 37 segments"
     );
     let short = Setting { periods: 1.9, ..setting };
     let [x, _] = pair(short, &mut noise, 0.0);

@@ -462,10 +462,10 @@ fn brackets_that_are_wrong() {
         ("n*[l + 1]", "[l + 1]", "parentheses"),
         ("l [mm]", "l [mm]", "`l/[mm]`"),
         ("L [dB]", "L [dB]", "`L/[dB]`"),
-        ("2*[]", "[]", "cannot stand here"),
+        ("2*[]", "[]", "is not allowed here"),
         ("3 [c]", "3 [c]", "`3*[c]`"),
         ("l/[h] + l", "+", "length"),
-        ("n*[mm", "[", "a unit stands between"),
+        ("n*[mm", "[", "write a unit between"),
     ] {
         let (found, message) = said(text);
         assert_eq!(found, part, "{text}: {message}");
