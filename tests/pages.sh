@@ -66,6 +66,17 @@ for columns in 60 80 100 140; do
   tmux kill-session -t "$session"
 done
 
+# what a terminal of 30 lines shows after the first command of README.md
+session="pages-$$-screen"
+tmux new-session -d -s "$session" -x 80 -y 30 \
+  "LANG=C.UTF-8 $GUMPTION run models/inclined_plane.json --quiet; sleep 60"
+for _ in $(seq 50); do
+  sleep 0.2
+  tmux capture-pane -p -t "$session" > "$folder/terminal-80x30.txt"
+  ! grep -q -- '--full' "$folder/terminal-80x30.txt" || break
+done
+tmux kill-session -t "$session"
+
 cd "$work"
 node "$OLDPWD/tests/pages/pages.mjs" "$folder" "$work"/{run,sweep,outputs,conformity,gap,observe,compare,diff,assumptions,verify,plan,certificate}.html
 # the script under the page's own policy, with its picture
