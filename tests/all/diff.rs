@@ -82,11 +82,11 @@ fn the_page_leaves_out_what_did_not_change() {
     equation `power`: from "(voltage + drift)^2/resistance" to "voltage^2/resistance"
 
     power: U from 2.03 to 4.01 mW (+97.2 %), by the law of propagation
-    what changed  from                             to                        change  share
-                                                                               of U   in %
-    ──────────────────────────────────────────────────────────────────────────────────────
-    voltage       5.000 V, u 0.010, normal         5.000 V, u 0.020, normal    1.99  100.4
-    drift         0.0000 V, u 0.0012, rectangular  absent                     -0.01   -0.4
+    what changed  from                             to                        change of  share
+                                                                               U in mW   in %
+    ─────────────────────────────────────────────────────────────────────────────────────────
+    voltage       5.000 V, u 0.010, normal         5.000 V, u 0.020, normal       1.99  100.4
+    drift         0.0000 V, u 0.0012, rectangular  absent                        -0.01   -0.4
     "#);
 }
 
@@ -187,15 +187,15 @@ fn the_page_of_saved_results() {
     to U is counted with these inputs
 
     power: U from 2.03 to 8.10 mW (+298.1 %), by the law of propagation
-    what changed  from                                 to                                  change  share
-                                                                                             of U   in %
+    what changed  from                               to                                 change of  share
+                                                                                          U in mW   in %
     ────────────────────────────────────────────────────────────────────────────────────────────────────
-    voltage       5.000 V, u 0.010, normal,            5.000 V, u 0.020, normal,             5.92   97.7
-                  sensitivity 100.0                    sensitivity 200.0
-    resistance    100.000 ohm, u 0.058, rectangular,   50.000 ohm, u 0.058, rectangular,     0.12    2.0
-                  sensitivity -2.500                   sensitivity -10.00
-    drift         0.0000 V, u 0.0012, rectangular,     0.0000 V, u 0.0012, rectangular,      0.02    0.3
-                  sensitivity 100.0                    sensitivity 200.0
+    voltage       5.000 V, u 0.010, normal,          5.000 V, u 0.020, normal,               5.92   97.7
+                  sensitivity 100.0                  sensitivity 200.0
+    resistance    100.000 ohm, u 0.058,              50.000 ohm, u 0.058, rectangular,       0.12    2.0
+                  rectangular, sensitivity -2.500    sensitivity -10.00
+    drift         0.0000 V, u 0.0012, rectangular,   0.0000 V, u 0.0012, rectangular,        0.02    0.3
+                  sensitivity 100.0                  sensitivity 200.0
     ");
 }
 

@@ -42,7 +42,8 @@ fn every_format_is_the_same_bytes_on_any_number_of_threads() {
 #[test]
 fn an_output_file_has_what_standard_output_has() {
     let folder = tempfile::tempdir().expect("a folder");
-    for format in ["markdown", "latex", "html", "xlsx"] {
+    // pages of the other formats have figures in a file alone
+    for format in ["html", "xlsx", "json", "csv"] {
         for model in [MODEL, SWEEP] {
             let path = folder.path().join("answer");
             let name = path.to_str().expect("a path");
