@@ -242,3 +242,18 @@ fn a_u_that_is_not_valid_is_said_to_be_so() {
         assert!(!page.contains("No input changed") && page.contains("phi"), "{page}");
     }
 }
+
+/// The page in HTML shows the way from U to U: the largest change first, with its sign.
+#[test]
+fn a_figure_shows_the_parts_of_the_change() {
+    let (_folder, paths) = files(&[("0.01}", "0.02}"), ("0.1}", "0.05}")]);
+    let [a, b] = paths.each_ref().map(|path| path.to_str().unwrap());
+    let page = output(&["diff", a, b, "--format", "html"]);
+    let place = |text: &str| page.find(&format!("\n{text}\n")).unwrap_or_else(|| panic!("{text}"));
+    let [before, voltage, resistance, after] =
+        ["U before", "voltage", "resistance", "U after"].map(place);
+    assert!(before < voltage && voltage < resistance && resistance < after);
+    let largest = page[voltage..resistance].contains("\n+");
+    assert!(largest && page[resistance..after].contains("\n\u{2212}"), "{page}");
+    assert!(page.contains("\nU(power) in mW\n"));
+}

@@ -148,3 +148,19 @@ fn shares_of_a_sweep_add_up() {
         assert!((sum - 100.0).abs() < 0.06 * line.len() as f64, "{line:?}: {sum}");
     }
 }
+
+/// Limits beyond a histogram are arrows with their numbers, not ends.
+#[test]
+fn limits_beyond_a_histogram_are_arrows() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("model.json");
+    let model = r#"{"inputs": {"a": {"unit": "ohm", "distribution": "normal", "mean": 100.01, "std": 0.003}},
+        "equations": {"R": "a"}, "outputs": {"R": {"unit": "ohm", "tolerance": {"lower": 99, "upper": 101}}}}"#;
+    fs::write(&path, model).unwrap();
+    let page =
+        output(&["run", path.to_str().unwrap(), "--histogram", "--quiet", "--trials", "20000"]);
+    let line = page.lines().find(|line| line.trim_start().starts_with("tolerance  ←"));
+    let line = line.unwrap_or_else(|| panic!("{page}"));
+    assert!(line.contains("← 99 ─") && line.ends_with("─ 101 →"), "{line}");
+    assert!(!line.contains('├') && !line.contains('┤'), "{line}");
+}
