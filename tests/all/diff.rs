@@ -82,11 +82,11 @@ fn the_page_leaves_out_what_did_not_change() {
     equation `power`: from "(voltage + drift)^2/resistance" to "voltage^2/resistance"
 
     power: U from 2.03 to 4.01 mW (+97.2 %), by the law of propagation
-    what changed  from                             to                        change  share
-                                                                               of U   in %
-    ──────────────────────────────────────────────────────────────────────────────────────
-    voltage       5.000 V, u 0.010, normal         5.000 V, u 0.020, normal    1.99  100.4
-    drift         0.0000 V, u 0.0012, rectangular  absent                     -0.01   -0.4
+    what changed  from                             to                        change of  share
+                                                                               U in mW   in %
+    ─────────────────────────────────────────────────────────────────────────────────────────
+    voltage       5.000 V, u 0.010, normal         5.000 V, u 0.020, normal       1.99  100.4
+    drift         0.0000 V, u 0.0012, rectangular  absent                        -0.01   -0.4
     "#);
 }
 
@@ -187,15 +187,15 @@ fn the_page_of_saved_results() {
     to U is counted with these inputs
 
     power: U from 2.03 to 8.10 mW (+298.1 %), by the law of propagation
-    what changed  from                                 to                                  change  share
-                                                                                             of U   in %
+    what changed  from                               to                                 change of  share
+                                                                                          U in mW   in %
     ────────────────────────────────────────────────────────────────────────────────────────────────────
-    voltage       5.000 V, u 0.010, normal,            5.000 V, u 0.020, normal,             5.92   97.7
-                  sensitivity 100.0                    sensitivity 200.0
-    resistance    100.000 ohm, u 0.058, rectangular,   50.000 ohm, u 0.058, rectangular,     0.12    2.0
-                  sensitivity -2.500                   sensitivity -10.00
-    drift         0.0000 V, u 0.0012, rectangular,     0.0000 V, u 0.0012, rectangular,      0.02    0.3
-                  sensitivity 100.0                    sensitivity 200.0
+    voltage       5.000 V, u 0.010, normal,          5.000 V, u 0.020, normal,               5.92   97.7
+                  sensitivity 100.0                  sensitivity 200.0
+    resistance    100.000 ohm, u 0.058,              50.000 ohm, u 0.058, rectangular,       0.12    2.0
+                  rectangular, sensitivity -2.500    sensitivity -10.00
+    drift         0.0000 V, u 0.0012, rectangular,   0.0000 V, u 0.0012, rectangular,        0.02    0.3
+                  sensitivity 100.0                  sensitivity 200.0
     ");
 }
 
@@ -241,4 +241,19 @@ fn a_u_that_is_not_valid_is_said_to_be_so() {
         assert!(page.contains("by the law of propagation") && page.contains("(+0.0 %)"), "{page}");
         assert!(!page.contains("No input changed") && page.contains("phi"), "{page}");
     }
+}
+
+/// The page in HTML shows the way from U to U: the largest change first, with its sign.
+#[test]
+fn a_figure_shows_the_parts_of_the_change() {
+    let (_folder, paths) = files(&[("0.01}", "0.02}"), ("0.1}", "0.05}")]);
+    let [a, b] = paths.each_ref().map(|path| path.to_str().unwrap());
+    let page = output(&["diff", a, b, "--format", "html"]);
+    let place = |text: &str| page.find(&format!("\n{text}\n")).unwrap_or_else(|| panic!("{text}"));
+    let [before, voltage, resistance, after] =
+        ["U before", "voltage", "resistance", "U after"].map(place);
+    assert!(before < voltage && voltage < resistance && resistance < after);
+    let largest = page[voltage..resistance].contains("\n+");
+    assert!(largest && page[resistance..after].contains("\n\u{2212}"), "{page}");
+    assert!(page.contains("\nU(power) in mW\n"));
 }

@@ -42,7 +42,8 @@ fn every_format_is_the_same_bytes_on_any_number_of_threads() {
 #[test]
 fn an_output_file_has_what_standard_output_has() {
     let folder = tempfile::tempdir().expect("a folder");
-    for format in ["markdown", "latex", "html", "xlsx"] {
+    // pages of the other formats have figures in a file alone
+    for format in ["html", "xlsx", "json", "csv"] {
         for model in [MODEL, SWEEP] {
             let path = folder.path().join("answer");
             let name = path.to_str().expect("a path");
@@ -146,4 +147,20 @@ fn shares_of_a_sweep_add_up() {
         let sum: f64 = line[1..].iter().map(number).sum();
         assert!((sum - 100.0).abs() < 0.06 * line.len() as f64, "{line:?}: {sum}");
     }
+}
+
+/// Limits beyond a histogram are arrows with their numbers, not ends.
+#[test]
+fn limits_beyond_a_histogram_are_arrows() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("model.json");
+    let model = r#"{"inputs": {"a": {"unit": "ohm", "distribution": "normal", "mean": 100.01, "std": 0.003}},
+        "equations": {"R": "a"}, "outputs": {"R": {"unit": "ohm", "tolerance": {"lower": 99, "upper": 101}}}}"#;
+    fs::write(&path, model).unwrap();
+    let page =
+        output(&["run", path.to_str().unwrap(), "--histogram", "--quiet", "--trials", "20000"]);
+    let line = page.lines().find(|line| line.trim_start().starts_with("tolerance  ←"));
+    let line = line.unwrap_or_else(|| panic!("{page}"));
+    assert!(line.contains("← 99 ─") && line.ends_with("─ 101 →"), "{line}");
+    assert!(!line.contains('├') && !line.contains('┤'), "{line}");
 }

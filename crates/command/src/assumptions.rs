@@ -45,7 +45,7 @@ pub(super) struct Assumptions {
 enum AssumptionsFormat {
     /// A text page
     Table,
-    /// A Markdown page, as GitHub shows it
+    /// A Markdown page, as GitHub shows it; with `--output` its figures are SVG files beside it
     Markdown,
     /// An HTML page with figures, in one file
     Html,

@@ -72,7 +72,7 @@ enum CompareFormat {
     Table,
     /// An HTML page with a figure, in one file
     Html,
-    /// A Markdown page, for GitHub and notebooks
+    /// A Markdown page, for GitHub and notebooks; with `--output` its figure is an SVG file beside it
     Markdown,
     /// The whole answer for programs
     Json,

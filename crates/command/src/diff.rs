@@ -39,7 +39,7 @@ enum DiffFormat {
     Table,
     /// The whole answer for programs
     Json,
-    /// A Markdown page, as GitHub shows it
+    /// A Markdown page, as GitHub shows it; with `--output` its figures are SVG files beside it
     Markdown,
     /// An HTML page, in one file
     Html,

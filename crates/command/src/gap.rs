@@ -47,7 +47,7 @@ enum GapFormat {
     Table,
     /// An HTML page with figures, in one file
     Html,
-    /// A Markdown page without figures, for GitHub and editors
+    /// A Markdown page, for GitHub and editors; with `--output` its figures are SVG files beside it
     Markdown,
     /// The whole answer for programs
     Json,

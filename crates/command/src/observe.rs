@@ -36,7 +36,7 @@ enum ObserveFormat {
     Json,
     /// One line for each row and frequency
     Csv,
-    /// A Markdown page, as GitHub shows it
+    /// A Markdown page, as GitHub shows it; with `--output` its figures are SVG files beside it
     Markdown,
     /// An HTML page, in one file
     Html,

@@ -44,9 +44,10 @@ pub(super) enum Page {
     Json,
     /// One line for each output
     Csv,
-    /// A Markdown page, as GitHub shows it
+    /// A Markdown page, as GitHub shows it; with `--output` its figures are SVG files beside it
     Markdown,
-    /// A LaTeX file for `article` with `booktabs` and `siunitx`
+    /// A LaTeX file for `article` with `booktabs` and `siunitx`; with `--output` its figures are PDF files
+    /// beside it
     Latex,
     /// An HTML page with figures, in one file
     Html,

@@ -58,7 +58,7 @@ pub(super) struct Planning {
 enum PlanFormat {
     /// A text page
     Table,
-    /// A Markdown page, as GitHub shows it
+    /// A Markdown page, as GitHub shows it; with `--output` its figures are SVG files beside it
     Markdown,
     /// The whole answer for programs
     Json,

@@ -14,7 +14,7 @@ use gumption_assumptions::{InputAudit, Kept, OutputAudit, VariantChange};
 const ROW: f64 = 22.0;
 const BAR: f64 = 14.0;
 const LEFT: f64 = 220.0;
-const RIGHT: f64 = 8.0;
+const RIGHT: f64 = 14.0;
 
 /// Free space beside a value.
 const MARGIN: f64 = 7.0;
@@ -46,7 +46,7 @@ pub(super) fn tornado(output: &OutputAudit, name: impl Fn(usize) -> String) -> O
     });
     let rows: Vec<Row> = rows.collect();
     let caption = "Change of U, half the length of the coverage interval: if the input is known \
-                   exactly (dark), and if the width of its Type B distribution is doubled (pale). The \
+                   exactly (solid), and if the width of its Type B distribution is doubled (outlined). The \
                    input with the largest effect is at the top";
     draw(rows, caption)
 }
@@ -69,7 +69,7 @@ pub(super) fn shapes(output: &OutputAudit, name: impl Fn(usize) -> String) -> Op
         .collect();
     largest_first(&mut shapes, |row| row.bars[0].0.abs());
     let caption = "Change of U, half the length of the coverage interval, if an input has another \
-                   shape with the same limits (dark) or the same standard uncertainty (pale), the \
+                   shape with the same limits (solid) or the same standard uncertainty (outlined), the \
                    largest first";
     draw(shapes, caption)
 }

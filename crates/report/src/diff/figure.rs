@@ -17,7 +17,7 @@ use crate::plot::{
 const ROW: f64 = 24.0;
 const BAR: f64 = 15.0;
 const LEFT: f64 = 220.0;
-const RIGHT: f64 = 8.0;
+const RIGHT: f64 = 14.0;
 
 /// Maximum number of changes with a row of their own.
 const MOST: usize = 16;
@@ -95,7 +95,7 @@ pub(super) fn waterfall(output: &OutputDifference) -> Option<Drawing> {
         })
     };
     let caption =
-        "U by the law of propagation in the first file and in the second one (pale), and between \
+        "U by the law of propagation in the first file and in the second one (outlined), and between \
                    them the part of each change, the largest first: vermilion where U grows, blue where it falls."
             .to_owned();
     Some(Drawing::new(caption, drawn))
