@@ -142,7 +142,10 @@ fn fail_makes_a_refuted_interval_exit_code_3() {
     let arguments = ["run", "-", "--trials", "1000", "--digits", "3", "--fail"];
     let (code, _, message) = ended(&arguments, undecided);
     assert_eq!(code, 3);
-    assert!(message.contains("`y`: is the GUM interval validated (clause 8): undecided"), "{message}");
+    assert!(
+        message.contains("`y`: is the GUM interval validated (clause 8): undecided"),
+        "{message}"
+    );
     // readings of one degree of freedom that are correlated have no GUM interval
     let without = r#"{"inputs": {
         "a": {"distribution": "normal", "mean": 0, "std": 1, "dof": 5},

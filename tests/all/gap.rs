@@ -490,7 +490,7 @@ fn errors_of_settings_are_said_on_the_page() {
     let page = page.split_whitespace().collect::<Vec<_>>().join(" ");
     let said = "Readings of R at one setting of t share an error with a standard deviation of 0.00";
     assert!(page.contains(said), "{page}");
-    assert!(page.contains(r#"an input with `"per": "t"` says it."#), "{page}");
+    assert!(page.contains(r#"an input with `"per": "t"` describes it."#), "{page}");
 }
 
 /// A standard uncertainty for all rows, or as a share of the measured values, says what a column does.

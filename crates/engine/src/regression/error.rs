@@ -134,9 +134,7 @@ impl fmt::Display for RegressionError {
                  needs {parameters}",
                 if *different == 1 { "" } else { "s" }
             ),
-            Self::Dependent { .. } => {
-                f.write_str("the points cannot distinguish all parameters")
-            }
+            Self::Dependent { .. } => f.write_str("the points cannot distinguish all parameters"),
             Self::OrdinatesUnknown => f.write_str(
                 "the uncertainties of x are stated, but not the uncertainties of y; state both, \
                  or neither",

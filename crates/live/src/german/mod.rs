@@ -192,5 +192,8 @@ fn with_commas(text: &str) -> String {
 
 /// An enumeration with German words between its names.
 fn joined_in_german(text: &str) -> String {
-    TEXTS.between.iter().fold(text.to_owned(), |text, (english, german)| text.replace(english, german))
+    TEXTS
+        .between
+        .iter()
+        .fold(text.to_owned(), |text, (english, german)| text.replace(english, german))
 }

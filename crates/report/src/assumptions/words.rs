@@ -93,9 +93,7 @@ pub(super) fn verdict(report: &AuditReport<'_>, of: &OutputAudit) -> String {
         return "No input has an assumed shape.".to_owned();
     }
     if matter.is_empty() {
-        return format!(
-            "No assumed shape matters: none changes U by more than {limit} %."
-        );
+        return format!("No assumed shape matters: none changes U by more than {limit} %.");
     }
     let sentence = |(input, other): &(&InputAudit, &Alternative)| {
         let sign = if change(other) > 0.0 { "+" } else { "" };

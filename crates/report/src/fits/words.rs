@@ -19,9 +19,7 @@ pub(super) fn form(curve: &CurveFunction) -> String {
         text => format!(" {}", plain(text)),
     };
     let method = match (points.is_exact_in_x(), &points.of_y, &points.cross) {
-        (true, Spread::None, _) => {
-            "ordinary least squares, because no uncertainty is stated for y"
-        }
+        (true, Spread::None, _) => "ordinary least squares, because no uncertainty is stated for y",
         (true, Spread::Each(_), _) => "weighted least squares",
         (true, Spread::Joint(_), _) => "generalized least squares with the covariance matrix of y",
         (false, Spread::Joint(_), _) | (false, _, Cross::Joint(_)) => {
@@ -94,7 +92,8 @@ pub(super) fn agreement(curve: &CurveFunction) -> String {
             significant(factor, 3),
             degrees_of_freedom(&fit.dof.to_string())
         ),
-        _ => "The curve goes through all points, so the fit cannot be tested for lack of fit.".to_owned(),
+        _ => "The curve goes through all points, so the fit cannot be tested for lack of fit."
+            .to_owned(),
     }
 }
 

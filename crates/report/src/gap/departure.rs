@@ -131,7 +131,11 @@ fn words(form: &DepartureForm, conditions: &[NamedQuantity]) -> String {
     let mut said = format!("{all} departs by {kind}, {function}");
     if outputs.len() > 1 {
         said = said.replacen("departs", "depart", 1);
-        said.push_str(if form.common { ", the same in all of them" } else { ", different in each" });
+        said.push_str(if form.common {
+            ", the same in all of them"
+        } else {
+            ", different in each"
+        });
     }
     if let Some(scale) = form.scale {
         let number = significant(scale, 2);

@@ -244,7 +244,10 @@ pub(super) fn present(diagnosis: &Diagnosis) -> Option<String> {
         .map(|present| format!("{} {}", plain(&present.effect), probability(present.probability)))
         .collect();
     (!named.is_empty()).then(|| {
-        format!("Probability that an effect is present, alone or with others: {}.", named.join(", "))
+        format!(
+            "Probability that an effect is present, alone or with others: {}.",
+            named.join(", ")
+        )
     })
 }
 
@@ -578,7 +581,8 @@ pub(super) fn shrinkage(diagnosis: &Diagnosis) -> Vec<String> {
     if diagnosis.most_probable.kind == HypothesisKind::None {
         said.push(
             "There is nothing to correct: before and after differ only in the values of the \
-             inputs.".to_owned(),
+             inputs."
+                .to_owned(),
         );
     } else if !shrinkage.meaningful {
         said.push(
@@ -671,8 +675,10 @@ pub(super) fn run_at_verdict(diagnosis: &Diagnosis) -> Option<String> {
     let error = significant(run.error, 2);
     let residual = run.residual.map(|residual| {
         let residual = significant(residual, 3);
-        format!(" The data differ from it by {residual} standard uncertainties (root mean \
-            square).")
+        format!(
+            " The data differ from it by {residual} standard uncertainties (root mean \
+            square)."
+        )
     });
     Some(format!(
         "The simulator itself was run with these parameters.{} The prediction from the {} runs \
@@ -766,7 +772,11 @@ pub(super) fn next(diagnosis: &Diagnosis) -> Vec<String> {
             Some((count, p)) => format!(
                 "A probability of 50 % of odds of 20 to 1 between {own} and {other}, whichever is \
                  true, takes {}: {}.",
-                if count == 1 { "one measurement".to_owned() } else { format!("{count} measurements") },
+                if count == 1 {
+                    "one measurement".to_owned()
+                } else {
+                    format!("{count} measurements")
+                },
                 place(diagnosis, p)
             ),
             None => format!(
@@ -813,10 +823,7 @@ pub(super) fn place(diagnosis: &Diagnosis, proposal: &ProposedMeasurement) -> St
         ProposalKind::Input { input, standard_uncertainty, stated } => {
             let [wanted, stated] =
                 [standard_uncertainty, stated].map(|u| in_unit(&significant(*u, 2), input));
-            format!(
-                "reduce u({}) from {stated} to {wanted}",
-                plain(&input.name)
-            )
+            format!("reduce u({}) from {stated} to {wanted}", plain(&input.name))
         }
         ProposalKind::Output { output, conditions, .. } => {
             format!("{} of {}", at(&diagnosis.conditions, conditions), plain(&output.name))

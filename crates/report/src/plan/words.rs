@@ -165,9 +165,7 @@ pub fn excess_text(excess: &Excess, task: &Task, target: PlanTarget) -> String {
     );
     if let Some((needed, variable)) = excess.needed.zip(variable) {
         let needed = in_unit(&at_most(needed), &variable.unit);
-        said += &format!(
-            "; with u(`{name}`) = {needed} they reach the target"
-        );
+        said += &format!("; with u(`{name}`) = {needed} they reach the target");
     }
     said
 }
@@ -225,15 +223,21 @@ pub(super) fn interval(report: &PlanReport<'_>, found: &PlannedInterval) -> Stri
     let stated = time(exact(drift.stated));
     let grows = format!("`{input}` is the drift over {stated} and increases {law}");
     match found.longest {
-        None => format!("Calibration interval: {grows}; the target is met for every practical \
-            interval."),
+        None => format!(
+            "Calibration interval: {grows}; the target is met for every practical \
+            interval."
+        ),
         Some(0.0) => format!(
             "Calibration interval: {grows}; the target is missed even right after a calibration: \
              improve other inputs first."
         ),
         Some(longest) => {
             let u = found.standard_uncertainty.map_or_else(String::new, |u| {
-                format!(", until u({input}) = {} {}", at_most(u), plain(report.unit(drift.variable)))
+                format!(
+                    ", until u({input}) = {} {}",
+                    at_most(u),
+                    plain(report.unit(drift.variable))
+                )
             });
             format!(
                 "Calibration interval: {grows}; the target is met for {}{}.",

@@ -231,7 +231,11 @@ impl fmt::Display for FormulaError {
                     )?;
                     match (other.is_celsius, is_name(&other.text)) {
                         (true, true) => {
-                            write!(f, ", or take the number of the other, `{}/[{given}]`", other.text)?;
+                            write!(
+                                f,
+                                ", or take the number of the other, `{}/[{given}]`",
+                                other.text
+                            )?;
                         }
                         // a width that grows with the temperature, IEC 60751
                         (true, false) => f.write_str(

@@ -212,8 +212,7 @@ impl End {
 }
 
 /// Why quantities that are drawn in sets have no distribution here.
-pub(super) const DRAWN_TOGETHER: &str =
-    "the joint distribution of outputs of one saved result, or of parameters of a fit, is known \
+pub(super) const DRAWN_TOGETHER: &str = "the joint distribution of outputs of one saved result, or of parameters of a fit, is known \
      only by draws";
 
 /// Scores farther out have no weight.

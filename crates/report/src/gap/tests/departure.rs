@@ -14,9 +14,7 @@ fn a_departure_is_told_in_words() {
     ] {
         assert!(page.contains(wanted), "{wanted}\n{page}");
     }
-    assert!(
-        !crate::gap::table(&diagnosis(), &provenance()).contains("Form of the departure")
-    );
+    assert!(!crate::gap::table(&diagnosis(), &provenance()).contains("Form of the departure"));
 }
 
 #[test]

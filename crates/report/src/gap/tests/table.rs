@@ -73,7 +73,10 @@ fn headlines_are_no_surer_than_their_probabilities() {
         .sum();
     assert!(explained > 0.454, "{explained}");
     let text = page(&unsure).split_whitespace().collect::<Vec<_>>().join(" ");
-    assert!(text.contains("No candidate effect explains it (probability 0.454): this is more probable"), "{text}");
+    assert!(
+        text.contains("No candidate effect explains it (probability 0.454): this is more probable"),
+        "{text}"
+    );
     let mut off = bare();
     off.outputs = vec![named("a_x", "m/s^2")];
     for (probability, said) in
