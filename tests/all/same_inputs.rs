@@ -68,7 +68,7 @@ fn readings_that_were_replaced_are_others() {
     assert!((apart / 0.01 - 1.0).abs() < 1e-9 && told, "{apart} {told}");
     // in another order: the same mean and scatter
     save("2.32\n2.31\n2.30\n2.29\n2.28\n", "r2.json");
-    let (apart, told) = of_two(folder, "the same figures, but from files of different content");
+    let (apart, told) = of_two(folder, "the same values, but from files of different content");
     assert!((apart / 0.01 - 1.0).abs() < 1e-9 && told, "{apart} {told}");
     save("2.28\n2.29\n2.30\n2.31\n2.32\n", "r2.json");
     assert_eq!(of_two(folder, ""), (0.0, false));
