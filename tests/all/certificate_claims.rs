@@ -243,7 +243,7 @@ fn the_sentence_about_differences_holds() {
     let found = answer(dir.path(), &["certificate", "c.json"]);
     assert!((of_difference(&found) - 0.04).abs() < 1e-12, "{found}");
     let page = output(dir.path(), &["certificate", "c.json", "--quiet"]).replace("\n", " ");
-    assert!(page.contains("is taken to be uncorrelated"), "{page}");
+    assert!(page.contains("is assumed to be uncorrelated"), "{page}");
 }
 
 /// What is raised to the capability was neither evaluated nor confirmed, and its k is said.
@@ -303,7 +303,7 @@ fn a_decision_beyond_the_stated_digits_is_explained() {
     };
     let said = page(1.1004);
     assert!(said.contains("does not conform"), "{said}");
-    assert!(said.contains("decided with the value before rounding, 1.1004 V"), "{said}");
+    assert!(said.contains("made with the value before rounding, 1.1004 V"), "{said}");
     assert!(!page(1.21).contains("before rounding"));
 }
 
@@ -538,7 +538,9 @@ fn clauses_of_95_percent_are_cited_for_that_alone() {
     for (factor, width) in [(1, "0.00200 V"), (3, "0.00600 V")] {
         let said = of(json!({"coverage_factor": factor}));
         assert!(!said.contains("U (ILAC-G8"), "{said}");
-        let part = format!("(U having k = {factor}.00; ILAC-G8:09/2019, 4.2.2, has it for U of");
+        let part = format!(
+            "(U with k = {factor}.00; ILAC-G8:09/2019, 4.2.2, defines the guard band for U of"
+        );
         assert!(said.contains(&part) && said.contains(width), "{said}");
         let part =
             format!("converted from the coverage factor 2 of the capability to k = {factor}.00");

@@ -73,7 +73,7 @@ fn every_format_says_the_same() {
     let (markdown, _) = diagnosed(&path, &["--format", "markdown"]);
     let words = page.split_whitespace().collect::<Vec<_>>().join(" ");
     assert!(markdown.contains("load + zero") && words.contains("shown load + zero"), "{page}");
-    assert!(html.contains(">The sim</h2>"), "{html}");
+    assert!(html.contains(">Model</h2>"), "{html}");
     let (csv, _) = diagnosed(&path, &["--format", "csv"]);
     let first: Vec<&str> = csv.lines().nth(1).unwrap().split(',').collect();
     assert_eq!(first[..2], ["explained", "gain"]);
@@ -365,7 +365,7 @@ fn predictive_densities_of_phases_know_the_turn() {
     let note = answer["notes"].as_array().unwrap().iter().find(|of| of["code"] == "whole-turns");
     let said = note.unwrap()["message"].as_str().unwrap();
     assert!(said.contains("of 24 values of p are more than half a turn from the sim"), "{said}");
-    assert!(said.contains(r#"says `"periodic": 360`"#), "{said}");
+    assert!(said.contains(r#"state `"periodic": 360`"#), "{said}");
 }
 
 /// Phases that an instrument gives within a turn and whose sim is zero: none is more than half a turn
@@ -393,7 +393,10 @@ fn phases_that_jump_by_a_turn_are_told() {
     let answer = answered(text, &data(&wrapped));
     let note = answer["notes"].as_array().unwrap().iter().find(|of| of["code"] == "whole-turns");
     let said = note.unwrap()["message"].as_str().unwrap();
-    assert!(said.contains("p jumps by nearly a turn between neighbouring conditions"), "{said}");
+    assert!(
+        said.contains("residuals of p jump by nearly a turn between neighbouring conditions"),
+        "{said}"
+    );
     let round = text.replace(r#""p": {"unit": "deg"}"#, r#""p": {"unit": "deg", "periodic": 360}"#);
     let answer = answered(&round, &data(&wrapped));
     assert_eq!(answer["verdict"]["effects"], serde_json::json!(["delay"]));
@@ -490,7 +493,7 @@ fn errors_of_settings_are_said_on_the_page() {
     let page = page.split_whitespace().collect::<Vec<_>>().join(" ");
     let said = "Readings of R at one setting of t share an error with a standard deviation of 0.00";
     assert!(page.contains(said), "{page}");
-    assert!(page.contains(r#"an input with `"per": "t"` says it."#), "{page}");
+    assert!(page.contains(r#"an input with `"per": "t"` describes it."#), "{page}");
 }
 
 /// A standard uncertainty for all rows, or as a share of the measured values, says what a column does.

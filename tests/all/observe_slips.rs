@@ -228,7 +228,7 @@ fn rates_that_contradict_the_file_are_told() {
     // 16 Hz x 1100/1000
     let text = note(folder, &other, "sampling-rates-differ");
     assert!(text.contains("states a sampling rate of 1100 Hz, but its time column has 1000 Hz"));
-    assert!(text.contains("frequencies come out 1.1 times"), "{text}");
+    assert!(text.contains("frequencies are 1.1 times"), "{text}");
     // within a thousandth, and within what is stated
     let known = json!({"value": 1100, "unit": "Hz", "standard_uncertainty": 50});
     for rate in [json!(1000.9), known] {
@@ -272,7 +272,7 @@ fn wrong_frequencies_are_told_with_the_tone_that_is_there() {
     let text = note(folder, &wrong, "strong-tone");
     let named = "a tone that the recipe does not name has an amplitude of 200 mV at 16 Hz";
     assert!(text.contains(named), "{text}");
-    assert!(text.contains("at 100.531 Hz; look at the frequency"), "{text}");
+    assert!(text.contains("at 100.531 Hz; check the frequency"), "{text}");
     assert!(text.contains("(100.531 rad/s is 16 Hz)"), "{text}");
     assert!(all.iter().all(|(code, _)| code != "wandering-level"), "{all:?}");
     wrong["frequency"] = json!(8);

@@ -281,7 +281,7 @@ fn an_input_that_the_law_of_propagation_does_not_see_is_named() {
     };
     let target = "U(M) <= 0.0015 N m";
     let said = plan(2.0, target, &[]);
-    assert!(said.contains("`phi` makes the difference"), "{said}");
+    assert!(said.contains("`phi` is the cause"), "{said}");
     assert!(!said.contains("plan for U(M)"), "{said}");
     let behind = said.split("uncertainty of `phi` of ").nth(1).expect("a figure");
     let needed: f64 = behind.split(' ').next().and_then(|u| u.parse().ok()).expect("a number");
@@ -290,7 +290,7 @@ fn an_input_that_the_law_of_propagation_does_not_see_is_named() {
     assert!(met.contains("is already met"), "{met}");
     // a plan that the trials refute says the same
     let page = plan(2.0, "U(M) <= 0.0005 N m", &[]);
-    assert!(page.contains("aiming lower does not help: `phi` makes the difference"), "{page}");
+    assert!(page.contains("a lower target does not help: `phi` is the cause"), "{page}");
     let found = plan(2.0, "U(M) <= 0.0005 N m", &["--format", "json", "--quiet"]);
     let found: Value = serde_json::from_str(&found).expect("JSON");
     assert_eq!(found["check"]["excess"]["input"], "phi");

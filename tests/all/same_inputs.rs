@@ -68,7 +68,7 @@ fn readings_that_were_replaced_are_others() {
     assert!((apart / 0.01 - 1.0).abs() < 1e-9 && told, "{apart} {told}");
     // in another order: the same mean and scatter
     save("2.32\n2.31\n2.30\n2.29\n2.28\n", "r2.json");
-    let (apart, told) = of_two(folder, "the same figures, but from files of different content");
+    let (apart, told) = of_two(folder, "the same values, but from files of different content");
     assert!((apart / 0.01 - 1.0).abs() < 1e-9 && told, "{apart} {told}");
     save("2.28\n2.29\n2.30\n2.31\n2.32\n", "r2.json");
     assert_eq!(of_two(folder, ""), (0.0, false));
@@ -255,7 +255,11 @@ fn a_result_of_a_model_that_is_not_linear_has_no_few_degrees_of_freedom() {
     let found = run(folder, &["later.json"]);
     let notes = found["warnings"].as_array().unwrap();
     assert!(notes.iter().all(|note| note["code"] != "few-dof"), "{notes:?}");
-    assert!(has_note(&found, "non-linear", "whose trials have another standard deviation"));
+    assert!(has_note(
+        &found,
+        "non-linear",
+        "the trials of saved results have another standard deviation"
+    ));
     let by_trials = found["outputs"]["d"]["monte_carlo"]["standard_uncertainty"].as_f64().unwrap();
     // 10000 trials of the result: 5 standard errors of a width, 0.0225 each for a kurtosis near 3.8
     assert!((by_trials / (2.0 * 0.0018_f64.sqrt()) - 1.0).abs() < 0.06, "{by_trials}");

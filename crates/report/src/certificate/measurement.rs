@@ -24,8 +24,8 @@ const LEFT_OUT: &str = "…";
 pub(super) struct StatedModel {
     /// Quantities with their equations, in the order in which they are computed.
     pub(super) equations: Vec<[String; 2]>,
-    /// Symbols with their meaning and unit, without symbols that the model does not describe; empty
-    /// if there are too many.
+    /// Symbols with their meaning, which may be empty, and unit. If there are very many, only those
+    /// with a meaning, and none if these are too many as well.
     pub(super) symbols: Vec<[String; 3]>,
 }
 
@@ -56,8 +56,10 @@ impl StatedModel {
         let quantities = outputs.chain(inputs).chain(&task.model.conditions);
         let symbols: Vec<[String; 3]> = quantities
             .map(|of| [plain(&of.name), meaning(&of.about), plain(of.unit.text())])
-            .filter(|[_, meaning, _]| !meaning.is_empty())
             .collect();
+        let many = symbols.len() > MOST_SYMBOLS;
+        let symbols: Vec<[String; 3]> =
+            symbols.into_iter().filter(|symbol| !many || has_meaning(symbol)).collect();
         Self {
             equations: equations
                 .map(|(name, text)| [name, without_files(&text)])
@@ -87,16 +89,22 @@ pub(super) fn sections(document: &mut Document, report: &CertificateReport<'_>) 
         let texts = of.equations.iter().map(|[_, text]| formula_text(text));
         sheet.push(&header(|w| w.equation), texts, ColumnKind::Equations);
         document.table(sheet);
-        if of.symbols.is_empty() {
+        let symbols: Vec<&[String; 3]> = of.symbols.iter().filter(|of| has_meaning(of)).collect();
+        if symbols.is_empty() {
             continue;
         }
-        let column = |place: usize| of.symbols.iter().map(move |of| of[place].clone());
+        let column = |place: usize| symbols.iter().map(move |of| of[place].clone());
         let mut sheet = Sheet::default();
         sheet.text(&header(|w| w.symbol), column(0));
         sheet.text(&header(|w| w.meaning), column(1));
         sheet.units(&header(|w| w.unit), column(2).map(|unit| unit_text(&unit)));
         document.table(sheet);
     }
+}
+
+/// Whether the model describes a symbol.
+fn has_meaning([_, meaning, _]: &[String; 3]) -> bool {
+    !meaning.is_empty()
 }
 
 /// The first sentence of the description of a quantity.

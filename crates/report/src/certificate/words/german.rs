@@ -145,7 +145,7 @@ pub(super) const WORDS: Words = Words {
     limits: ["von {low} bis {high}{unit}", "ab {low}{unit}", "bis {high}{unit}"],
     conforming: "Der Wert ist mit einer Wahrscheinlichkeit von {p} konform.",
     all_the_same: "Spezifisches Risiko, dass der zurückgewiesene Wert konform ist: {p}.",
-    unrounded: "Die Entscheidung wurde mit dem Wert vor der Rundung getroffen, {value}.",
+    unrounded: "Die Entscheidung beruht auf dem Wert vor der Rundung, {value}.",
     with_prior: "Diese Wahrscheinlichkeit berücksichtigt das Vorwissen über solche Gegenstände (JCGM \
         106:2012, 6.3 und 7.1): {prior}. Aus dem Messwert und seiner Unsicherheit allein beträgt sie {p}.",
     prior: "Verteilung `{shape}` mit Mittelwert {mean} und Standardabweichung {std}",
