@@ -71,7 +71,10 @@ fn decisions_without_trials() {
     for (text, expected) in [(model(0.097, 0.01, limit), 0.617_911), (few, 0.608_118)] {
         let (code, found, said) = run(&text, &["--trials", "0", "--format", "json"]);
         assert_eq!(code, Some(0), "{said}");
-        assert!(said.contains("the decision on its tolerance uses the law of propagation"), "{said}");
+        assert!(
+            said.contains("the decision on its tolerance uses the law of propagation"),
+            "{said}"
+        );
         let found: Value = serde_json::from_str(&found).expect("JSON");
         let of = &found["outputs"]["y"]["conformity"];
         // six printed digits of the closed forms

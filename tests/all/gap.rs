@@ -393,7 +393,10 @@ fn phases_that_jump_by_a_turn_are_told() {
     let answer = answered(text, &data(&wrapped));
     let note = answer["notes"].as_array().unwrap().iter().find(|of| of["code"] == "whole-turns");
     let said = note.unwrap()["message"].as_str().unwrap();
-    assert!(said.contains("residuals of p jump by nearly a turn between neighbouring conditions"), "{said}");
+    assert!(
+        said.contains("residuals of p jump by nearly a turn between neighbouring conditions"),
+        "{said}"
+    );
     let round = text.replace(r#""p": {"unit": "deg"}"#, r#""p": {"unit": "deg", "periodic": 360}"#);
     let answer = answered(&round, &data(&wrapped));
     assert_eq!(answer["verdict"]["effects"], serde_json::json!(["delay"]));

@@ -255,7 +255,11 @@ fn a_result_of_a_model_that_is_not_linear_has_no_few_degrees_of_freedom() {
     let found = run(folder, &["later.json"]);
     let notes = found["warnings"].as_array().unwrap();
     assert!(notes.iter().all(|note| note["code"] != "few-dof"), "{notes:?}");
-    assert!(has_note(&found, "non-linear", "the trials of saved results have another standard deviation"));
+    assert!(has_note(
+        &found,
+        "non-linear",
+        "the trials of saved results have another standard deviation"
+    ));
     let by_trials = found["outputs"]["d"]["monte_carlo"]["standard_uncertainty"].as_f64().unwrap();
     // 10000 trials of the result: 5 standard errors of a width, 0.0225 each for a kurtosis near 3.8
     assert!((by_trials / (2.0 * 0.0018_f64.sqrt()) - 1.0).abs() < 0.06, "{by_trials}");
