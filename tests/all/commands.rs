@@ -511,7 +511,8 @@ fn tables_fit_100_columns() {
         let name = path.to_str().expect("UTF-8");
         let (code, answer, message) = ended(&["run", name, "--trials", "20000"], "");
         assert_eq!(code, 0, "{name}: {message}");
-        for line in answer.lines() {
+        // the results are whole lines, whatever the length of a name
+        for line in answer.lines().skip_while(|line| line.contains(" = ")) {
             let width = line.chars().count();
             assert!(width <= 100, "{name}: {width} columns: {line}");
         }

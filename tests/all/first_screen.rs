@@ -104,6 +104,6 @@ fn brief_and_full_are_of_the_text_page() {
     let arguments = ["run", MODEL, "--full", "--format", "html"];
     let refused = gumption().args(arguments).assert().code(2);
     let said = String::from_utf8_lossy(&refused.get_output().stderr).into_owned();
-    assert!(said.contains("`--brief` and `--full` are of the text page"), "{said}");
+    assert!(said.contains("`--brief` and `--full` are for the text page"), "{said}");
     gumption().args(["run", MODEL, "--brief", "--full"]).assert().code(2);
 }

@@ -283,7 +283,7 @@ fn an_input_that_the_law_of_propagation_does_not_see_is_named() {
     let said = plan(2.0, target, &[]);
     assert!(said.contains("`phi` is the cause"), "{said}");
     assert!(!said.contains("plan for U(M)"), "{said}");
-    let behind = said.split("uncertainty of `phi` of ").nth(1).expect("a figure");
+    let behind = said.split("with u(`phi`) = ").nth(1).expect("a number");
     let needed: f64 = behind.split(' ').next().and_then(|u| u.parse().ok()).expect("a number");
     // with it the trials do come to the target: it is met
     let met = plan(needed * 3.0_f64.sqrt(), target, &["--trials", "220000"]);

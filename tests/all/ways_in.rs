@@ -72,7 +72,7 @@ fn a_workbook_of_ours_comes_back_with_its_changed_cells() {
     // untouched it is the same file
     let (text, said, code) = told(at, &["import", "b.xlsx"]);
     assert_eq!((text.as_str(), code), (MODEL, Some(0)), "{said}");
-    assert!(said.contains("other cells are not looked at"), "{said}");
+    assert!(said.contains("other cells are ignored"), "{said}");
 
     // voltage 5.2 V with u = 0.02 V; u of the current doubled; the readings' estimate; r
     changed(

@@ -141,7 +141,7 @@ fn files_of_other_commands() {
         }
     }
     let text = said(&["gap", model]);
-    assert!(text.contains("a model file without them is for `gumption run`"), "{text}");
+    assert!(text.contains("`gumption run` evaluates a model file without them"), "{text}");
     let text = said(&["compare", case]);
     assert!(text.contains("a model file, which"), "{text}");
 }

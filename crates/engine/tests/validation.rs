@@ -8,7 +8,7 @@ use gumption_engine::propagate::{Control, evaluate, warnings};
 use gumption_engine::task::{Coverage, Trials};
 use gumption_files as file;
 
-/// y = x1 + x2, rectangular both: the GUM interval is not valid, which many trials tell. With so
+/// y = x1 + x2, rectangular both: the GUM interval is not validated, which many trials tell. With so
 /// few that the ends are the extreme ones (q = M of JCGM 101, 7.7.2) nothing is said, by any way
 /// of finding them.
 #[test]

@@ -158,7 +158,10 @@ fn mistakes() {
         (line().output("V", "Vv"), "the unit of `V`: "),
         (line().correlate("a", "q", 0.5), "there is no input `q`"),
         (line().correlate("a", "b", 1.5), "the correlation coefficient of `a` and `b` must be "),
-        (line().correlate("a", "a", 0.5), "the correlation coefficient of `a` and `a` would be "),
+        (
+            line().correlate("a", "a", 0.5),
+            "the correlation coefficient of `a` and `a` is between a quantity and itself",
+        ),
         (
             line().correlate("a", "b", 0.5).correlate("b", "a", 0.5),
             "the correlation coefficient of `b` and `a` is given twice",

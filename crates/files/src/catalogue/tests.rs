@@ -544,7 +544,7 @@ fn an_effect_that_does_not_fit_says_what_it_needs() {
     };
     let text = says(&CHAIN, "lateral-mode");
     for needed in
-        ["`lateral-mode`", "what it changes: `a_x`, `a_y`, `a_z`", "`alpha` or `tilt`", "`f`"]
+        ["`lateral-mode`", "that it changes: `a_x`, `a_y`, `a_z`", "`alpha` or `tilt`", "`f`"]
     {
         assert!(text.contains(needed), "{text}");
     }

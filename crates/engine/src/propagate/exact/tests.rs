@@ -203,7 +203,7 @@ fn sums_of_gammas() {
 fn refused_with_a_reason() {
     let inputs = vec![normal(1.0, 0.1); 4];
     let why = exact_of(&task(inputs, "x0*x1 + x2*x3*x0 + sin(x1*x3)", 0.95)).unwrap_err();
-    assert!(why.contains("come together"), "{why}");
+    assert!(why.contains("are in one function"), "{why}");
     let exponential: Distribution = Exponential::new(1.0).unwrap().into();
     let why = exact_of(&task(vec![exponential.clone(), exponential], "x0 + x1", 0.95)).unwrap_err();
     assert!(why.contains("decays"), "{why}");

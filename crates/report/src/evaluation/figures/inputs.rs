@@ -1,4 +1,4 @@
-//! What is known about the inputs, as small pictures.
+//! Input distributions, as small pictures.
 
 use plotters::element::Polygon;
 use plotters::style::Color;
