@@ -34,4 +34,11 @@ if ! { [ -d "$work/node_modules/playwright-core" ] && [ -d "$work/node_modules/a
 fi
 [ -z "${PAGE_FILES:-}" ] || PAGE_FILES=$(realpath "$PAGE_FILES")
 export GUMPTION PAGE_FILES PAGE_MODULES="$work"
-node tests/page/tests.mjs "$PWD" "$folder"
+failed=0
+node tests/page/tests.mjs "$PWD" "$folder" || failed=$?
+# the pictures of README.md and of the manual
+if [ "$folder" = "$PWD/reports/pages" ] && [ -z "${ONLY:-}" ]; then
+  cp "$folder/live-first-screen.png" docs/pictures/live.png
+  cp "$folder/live-conflict.png" docs/pictures/live-conflict.png
+fi
+exit "$failed"

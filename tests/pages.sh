@@ -51,6 +51,9 @@ for file in models/certificates/*.json; do
   pdftoppm -r 60 -png "$work/$name.pdf" "$folder/$name"
 done
 
+# the picture of the manual
+[ "$folder" != "$PWD/reports/pages" ] || cp "$folder/certificate-pressure_gauge-1.png" docs/pictures/certificate.png
+
 for columns in 60 80 100 140; do
   session="pages-$$-$columns"
   tmux new-session -d -s "$session" -x "$columns" -y 120 \

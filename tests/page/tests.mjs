@@ -78,10 +78,11 @@ await test("the resistor of the README from nothing, with the command line's dig
   assert.deepEqual(own, readme, "the file that the page wrote is the README's");
   const page_ = execFileSync(process.env.GUMPTION, ["run", join(folder, "power.json"), "--format", "markdown", "--quiet"]).toString();
   const stated = page_.split("\n").find(line => line.startsWith("**power") || /power = /.test(line) && /coverage/.test(line));
-  const value = stated.match(/power = ([^;]*);/)[1].replace(/[\s*]/g, "");
+  const value = stated.match(/power = ([^,]*),/)[1].replace(/[\s*]/g, "");
   const shown = (await text(page, "#headline .value")).replace(/^.*=/, "").replace(/\s/g, "");
   assert.equal(shown, value);
   await shot(page, "resistor", { fullPage: true });
+  await shot(page, "first-screen");
 });
 
 const POWER = { open: "power.json", files: [["models/examples/power.json", "power.json"]] };

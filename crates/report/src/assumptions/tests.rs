@@ -35,7 +35,7 @@ fn a_page_and_its_figures() {
     assert!((shown(2) - percent(&a["share"])).abs() <= 0.05);
     assert!((shown(3) - a["sobol_first"].as_f64().unwrap()).abs() <= 0.005);
     assert!((shown(5) - percent(&a["halved"]["change_of_half_length"])).abs() <= 0.05);
-    assert!(page.contains("too narrow") && page.contains("a (rectangular, "));
+    assert!(page.contains("too narrow") && page.contains("The shape of a matters"));
 }
 
 /// Readings that lie together off the centre are told beside the verdict: sum 0.1263, mean 0.02105,

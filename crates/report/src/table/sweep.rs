@@ -202,6 +202,7 @@ fn answer(sheet: &mut Sheet, lines: &[SweepLine], has_trials: bool) {
                 None => missing(),
             };
             sheet.text("Monte Carlo\ninterval is", lines.iter().map(kind));
+            sheet.narrow("interval\nis");
             sheet.aside();
         }
     }
