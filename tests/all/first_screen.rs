@@ -17,7 +17,7 @@ const SWEEP: &str = "models/measuring_chain_frequencies.json";
 /// The page of the model on a terminal of 80 columns that shows the letters of print.
 fn first_screen() -> String {
     let catalogue = gumption::catalogue();
-    let file = FileReader::new(&catalogue).model(&root().join(MODEL), &[]).expect("a model");
+    let file = FileReader::new(catalogue).model(&root().join(MODEL), &[]).expect("a model");
     let evaluation = evaluate(&file.task, &Control::default()).expect("an evaluation");
     let provenance = Provenance::default();
     let report = EvaluationReport {
