@@ -147,6 +147,8 @@ html_case() {
 tex() {
   local file=$1 base=${1%.latex}
   mkdir -p "$base.tex" && cp "$file" "$base.tex/report.tex"
+  # its figures
+  find "$(dirname "$base")" -maxdepth 1 -name "$(basename "$base")-*.pdf" -exec cp {} "$base.tex" \;
   # the second run knows how many pages there are
   (cd "$base.tex" && for _ in 1 2; do
     timeout 120 pdflatex -interaction=nonstopmode -halt-on-error report.tex || exit 1
