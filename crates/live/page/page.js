@@ -394,19 +394,20 @@ class Page {
     }
     const { statement, gum, clause_8: clause, conformity } = of;
     const bare = of.unit === "" || of.unit === "1";
-    const percent = String(Number((100 * found.coverage_probability).toFixed(2)));
+    const percent = words.number(String(Number((100 * found.coverage_probability).toFixed(2))));
+    const number = text => words.number(text);
     const value = make("p", { class: "value" });
     const said = [];
     if (statement.kind === "expanded") {
-      const both = `${statement.estimate} ± ${statement.expanded}`;
+      const both = `${number(statement.estimate)} ± ${number(statement.expanded)}`;
       value.append(make("i", {}, of.name), " = ", bare ? both : `(${both})`);
-      said.push(`k = ${statement.factor}`, words.coverage(percent));
+      said.push(`k = ${number(statement.factor)}`, words.coverage(percent));
     } else if (statement.kind === "interval") {
-      value.append(make("i", {}, of.name), " = ", statement.estimate);
-      said.push(`${words.interval} ${words.from_to(statement.low, statement.high)} (${statement.shortest ? words.shortest : words.symmetric})`, words.coverage(percent));
+      value.append(make("i", {}, of.name), " = ", number(statement.estimate));
+      said.push(`${words.interval} ${words.from_to(number(statement.low), number(statement.high))} (${statement.shortest ? words.shortest : words.symmetric})`, words.coverage(percent));
     } else if (statement.kind === "standard") {
-      value.append(make("i", {}, of.name), " = ", statement.estimate);
-      said.push(words.standard(statement.uncertainty));
+      value.append(make("i", {}, of.name), " = ", number(statement.estimate));
+      said.push(words.standard(number(statement.uncertainty)));
     } else {
       value.append(make("i", {}, of.name), " ", words.undefined);
     }
@@ -429,7 +430,7 @@ class Page {
       // what rounds to certainty is none
       const share = 100 * conformity.probability;
       const p = share >= 99.995 ? "> 99.99" : share < 0.005 ? "< 0.01" : String(Number(share.toFixed(2)));
-      marks.push(make("span", { class: `badge ${conformity.conforms ? "yes" : "no"}` }, conformity.conforms ? words.conforms(p) : words.not_conforms(p)));
+      marks.push(make("span", { class: `badge ${conformity.conforms ? "yes" : "no"}` }, conformity.conforms ? words.conforms(number(p)) : words.not_conforms(number(p))));
     }
     badges.replaceChildren(...marks);
   }

@@ -20,6 +20,7 @@ export default {
   trials: n => `${n} Monte Carlo trials`, refining: "; refining …", done: "", stale: "Last valid result:",
   cut: "; the file asks for more trials than this page makes: use gumption run",
   coverage: p => `coverage probability ${p} %`, interval: "coverage interval",
+  number: text => text.replace(/^-/, "\u2212"),
   from_to: (a, b) => `${a} to ${b}`, shortest: "shortest, Monte Carlo", symmetric: "symmetric, Monte Carlo",
   dof: n => `ν_eff = ${n}`, standard: u => `standard uncertainty ${u}`, undefined: "not defined at these estimates",
   clause_yes: "JCGM 101 clause 8: GUM interval validated", clause_no: "JCGM 101 clause 8: GUM interval not validated",

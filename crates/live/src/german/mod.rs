@@ -175,8 +175,8 @@ fn filled(german: &str, captured: &[&str]) -> String {
         let text = digits.parse().ok().and_then(|place: usize| captured.get(place));
         let text = text.copied().unwrap_or("");
         made += &match place.strip_prefix(digits) {
-            Some(":") => text_of(text).unwrap_or_else(|| text.to_owned()),
-            Some("+") => joined_in_german(text),
+            Some(":") => text_of(text).unwrap_or_else(|| with_commas(text)),
+            Some("+") => with_commas(&joined_in_german(text)),
             _ => with_commas(text),
         };
         rest = after;
