@@ -122,32 +122,28 @@ fn usual(document: &mut Document, report: &EvaluationReport<'_>, shown: &Shown<'
         return sweep::sections(document, report, shown);
     };
     let digits = evaluation.settings.digits_on_pages();
-    let outputs = || {
-        let section = |output| results::section_of(report, shown, (0, output), true);
-        (0..row.outputs.len()).filter_map(section)
-    };
-    let together = (row.outputs.len() > 1 && shown.columns.is_empty())
-        .then(|| table::shares::sheet(task, row, digits));
-    if row.outputs.len() > 1 {
+    let is_single = row.outputs.len() == 1;
+    let has_budgets = is_single || !shown.columns.is_empty();
+    if !is_single {
         summary(document, report, row);
     }
-    match together {
-        Some(Some(sheet)) => {
-            document.text(table::shares::ABOUT);
-            document.table(sheet);
-        }
-        Some(None) => {}
-        None => {
-            for section in outputs() {
-                if row.outputs.len() > 1 {
-                    document.section(section.title);
-                }
-                document.blocks.extend(section.budget.blocks);
-                document.blocks.extend(section.comparison.blocks);
-            }
-        }
+    if !has_budgets && let Some(sheet) = table::shares::sheet(task, row, digits) {
+        document.text(table::shares::ABOUT);
+        document.table(sheet);
     }
-    document.blocks.extend(outputs().flat_map(|section| section.distribution.blocks));
+    let mut distributions = Vec::new();
+    for output in 0..row.outputs.len() {
+        let Some(section) = results::section_of(report, shown, (0, output), true) else { continue };
+        if has_budgets {
+            if !is_single {
+                document.section(section.title);
+            }
+            document.blocks.extend(section.budget.blocks);
+            document.blocks.extend(section.comparison.blocks);
+        }
+        distributions.extend(section.distribution.blocks);
+    }
+    document.blocks.extend(distributions);
     crate::regions::sections(document, task, row);
     if let Some(said) = table::left_out(row) {
         document.sentence(&said);

@@ -27,7 +27,10 @@ pub(crate) fn sheet(task: &Task, row: &RowEvaluation, digits: u32) -> Option<She
     let lines: Vec<Vec<BudgetLine>> =
         gums.iter().map(|gum| gum.map_or_else(Vec::new, |gum| gum.budget().collect())).collect();
     let share = |output: usize, variable: usize| {
-        lines.get(output)?.iter().find(|line| line.variable == variable).map(|line| line.share)
+        // the lines of a budget are in the order of the variables
+        let lines = lines.get(output)?;
+        let place = lines.binary_search_by_key(&variable, |line| line.variable).ok()?;
+        lines.get(place).map(|line| line.share)
     };
     let largest = |variable: usize| {
         let shares = (0..lines.len()).filter_map(|output| share(output, variable));
