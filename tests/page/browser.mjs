@@ -64,7 +64,9 @@ export async function visit(context, address) {
     document.addEventListener("answered", event => window.answered.push(event.detail));
   });
   await page.goto(address);
-  await page.waitForFunction(() => window.answered && window.answered.length > 0);
+  await page.waitForFunction(() => window.answered && window.answered.length > 0, null, { timeout: 20000 }).catch(error => {
+    throw new Error([error.message, ...page.errors].join("\n"));
+  });
   return page;
 }
 

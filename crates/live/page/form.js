@@ -1,72 +1,57 @@
 // The form: fields that show parts of the file and change them.
 
+import { Fields } from "./fields.js";
 import { at, isNumber, make, put, unit } from "./parts.js";
 
 const CENTRES = ["mean", "value", "mode", "count"];
 const ASIDE = ["unit", "distribution", "about", "components", "complex"];
 // fields that are there whether the file says something or not
 const OPTIONS = ["\u0001dof", "\u0001about", "tolerance\u0001lower", "tolerance\u0001upper"];
-const OPTIONAL = ["dof", "about", "group", "type", "k", "p"];
 const WORDED = ["std", "half_width", "semi_range", "scale", "expanded", "lower", "upper", "std_low", "std_high"];
 
-export class Form {
+export class Form extends Fields {
   constructor(page) {
-    this.page = page;
-    this.fields = new Map();
+    super(page, "form");
     this.kinds = { distributions: [], units: [] };
     this.slid = null;
     this.shape = "";
   }
 
-  get words() { return this.page.words; }
-
   /** Shows what an answer says of the file; `force` also in the field that somebody writes in. */
   show(found, force = false) {
-    if (force) for (const field of this.fields.values()) field.isTyped = false;
+    if (force) this.forget();
     const shape = JSON.stringify([this.page.language, found.model, (found.inputs || []).map(signature),
       (found.outputs || []).map(signature), found.correlations && found.correlations.map(of => at(of.path)),
       found.conditions && found.conditions.rows.map(signature)]);
     if (shape !== this.shape) {
       this.shape = shape;
-      this.#build(found);
+      this.rebuild(() => this.#build(found));
     }
     const rows = [...(found.inputs || []), ...(found.outputs || []), ...((found.conditions || {}).rows || [])];
     const there = new Set(rows.flatMap(row => row.cells.map(cell => at(cell.path))));
     // what the file does not say any more
     for (const [key, field] of this.fields) {
-      if (field.tagName === "INPUT" && !key.includes("#") && key.includes("\u0001") && !there.has(key) && OPTIONS.some(of => key.endsWith(of))) this.#fill(key, "");
+      if (field.tagName === "INPUT" && !key.includes("#") && key.includes("\u0001") && !there.has(key) && OPTIONS.some(of => key.endsWith(of))) this.fill(key, "");
     }
     for (const row of rows) {
-      for (const cell of row.cells) this.#fill(at(cell.path), cell.raw, cell.kind);
-      if (row.form === "text") this.#fill(at(row.path), row.text, "text");
-      this.#fill(at(row.path) + "#name", row.name);
+      for (const cell of row.cells) this.fill(at(cell.path), cell.raw, cell.kind);
+      if (row.form === "text") this.fill(at(row.path), row.text, "text");
+      this.fill(at(row.path) + "#name", row.name);
       const picture = this.fields.get(at(row.path) + "#picture");
       if (picture && (row.picture || found.results)) put(picture, row.picture || "");
       const said = this.fields.get(at(row.path) + "#said");
       if (said && row.said) said.replaceChildren(`u = ${row.said[1]} `, ...unit(row.said[2] === "1" ? "" : row.said[2]));
     }
     for (const of of found.correlations || []) {
-      of.between.forEach((name, place) => this.#fill(at([...of.path, place]), name));
-      this.#fill(at([...of.path, 2]), of.raw);
+      of.between.forEach((name, place) => this.fill(at([...of.path, place]), name));
+      this.fill(at([...of.path, 2]), of.raw);
     }
     this.#settings(found);
     this.#chips(found);
     this.#slides(found);
   }
 
-  #fill(key, value, kind) {
-    const field = this.fields.get(key);
-    if (!field) return;
-    field.written = value;
-    if (document.activeElement === field && field.tagName !== "SELECT" && field.isTyped) return;
-    if (kind === "list") value = value.replace(/^\s*\[|\]\s*$/g, "").replace(/\s*,\s*/g, "  ").trim();
-    if (kind === "null") value = "";
-    if (field.value !== value) field.value = value;
-  }
-
   #build(found) {
-    const focused = document.activeElement && document.activeElement.dataset.key;
-    this.fields.clear();
     const inputs = (found.inputs || []).map(row => this.#input(row, found));
     this.page.element("inputs").replaceChildren(...inputs);
     this.page.element("outputs").replaceChildren(...(found.outputs || []).map(row => this.#output(row, found)));
@@ -74,52 +59,6 @@ export class Form {
     this.page.element("conditions").replaceChildren(...((found.conditions || {}).rows || []).map(row => this.#condition(row)));
     this.page.element("add-correlation").hidden = found.correlations === null;
     this.page.element("add-condition").hidden = Boolean(found.conditions && found.conditions.file);
-    const field = focused && this.fields.get(focused);
-    if (field) field.focus();
-  }
-
-  /** A field of text for a cell. */
-  #field(path, label, properties = {}) {
-    const key = at(path);
-    const field = make("input", {
-      autocomplete: "off", spellcheck: false, autocapitalize: "off", "aria-label": label, size: 8, ...properties,
-      oninput: () => { field.isTyped = true; this.#typed(field, path, properties.kind); },
-      onfocus: () => this.#grab(path),
-      onblur: () => { field.isTyped = false; },
-      onpaste: event => pasted(event, field, properties.kind),
-    });
-    field.dataset.key = key;
-    if (properties.inputmode) field.setAttribute("inputmode", properties.inputmode);
-    this.fields.set(key, field);
-    return field;
-  }
-
-  #typed(field, path, kind) {
-    let typed = field.value;
-    if (typed.trim() === "") {
-      // what need not be said is not said; everything else asks for a value
-      const isThere = field.written !== undefined && field.written !== "";
-      field.written = "";
-      if (OPTIONAL.includes(path[path.length - 1]) || path[0] !== "inputs") {
-        if (isThere) this.page.edit([{ path: this.#whole(path), remove: true }], `typed:${at(path)}`);
-      } else {
-        this.page.edit([{ path, value: kind === "list" ? [] : kind === "text" ? "" : null }], `typed:${at(path)}`);
-      }
-      return;
-    }
-    field.written = typed;
-    if (this.page.language === "de" && /^\s*[-+]?\d+,\d+(e[-+]?\d+)?\s*$/i.test(typed)) typed = typed.replace(",", ".");
-    if (kind === "list") typed = `[${numbersOf(typed, this.page.language)}]`;
-    const edit = kind === "text" ? { path, value: typed } : { path, typed };
-    this.page.edit([edit], `typed:${at(path)}`);
-  }
-
-  /** What goes with a cell that goes: a tolerance without limits is none. */
-  #whole(path) {
-    if (path[2] !== "tolerance") return path;
-    const other = path[3] === "lower" ? "upper" : "lower";
-    const field = this.fields.get(at([...path.slice(0, 3), other]));
-    return field && field.value.trim() === "" ? path.slice(0, 3) : path;
   }
 
   #name(row, above) {
@@ -134,23 +73,6 @@ export class Form {
     return field;
   }
 
-  #remove(path, name) {
-    return make("button", {
-      type: "button", class: "icon remove", "aria-label": this.words.remove_of(name), title: this.words.remove_of(name),
-      onclick: () => this.page.edit([{ path, remove: true }], null, true),
-    }, "×");
-  }
-
-  #labelled(cell, name, kind) {
-    const word = this.words.key[cell.key] || cell.key;
-    const numeric = kind !== "text" && kind !== "list";
-    const field = this.#field(cell.path, this.words.of(word, name), {
-      kind, size: kind === "list" ? 28 : 7, inputmode: numeric ? "decimal" : null,
-      class: kind === "list" ? "list" : numeric ? "figure" : null,
-    });
-    return make("span", { class: "labelled" }, make("span", { class: "key", "aria-hidden": true }, word), field);
-  }
-
   #input(row, found) {
     const { words, kinds } = this;
     const cell = key => row.cells.find(of => of.key === key);
@@ -161,22 +83,22 @@ export class Form {
       const own = row.cells.filter(of => of.key !== "dof" || !keys || !WORDED.some(key => cell(key))).filter(of => keys ? keys.keys.includes(of.key) : !ASIDE.includes(of.key) && of.kind !== "other");
       own.sort((a, b) => rank(a.key) - rank(b.key));
       const fields = own.filter(of => of.kind !== "other")
-        .map(of => this.#labelled(of, row.name, kindOf(of)));
+        .map(of => this.labelled(of, row.name, kindOf(of)));
       known.append(...fields);
       if (keys && keys.keys.includes("dof") && WORDED.some(key => cell(key))) {
         const path = [...row.path, "dof"];
-        const dof = this.#field(path, words.of(words.key.dof, row.name), { size: 4, inputmode: "decimal", class: "figure few", placeholder: "∞" });
+        const dof = this.field(path, words.of(words.key.dof, row.name), { size: 4, inputmode: "decimal", class: "figure few", placeholder: "∞" });
         known.append(make("span", { class: "labelled" }, make("span", { class: "key", "aria-hidden": true }, words.key.dof), dof));
       }
     } else if (row.form === "text") {
       known.append(make("span", { class: "labelled wide" }, make("span", { class: "key", "aria-hidden": true }, words.text_value),
-        this.#field(row.path, words.of(words.text_value, row.name), { kind: "text", size: 24 })));
+        this.field(row.path, words.of(words.text_value, row.name), { kind: "text", size: 24 })));
     }
     if (!row.component || cell("about")) {
       const about = cell("about") ? cell("about").path : [...row.path, "about"];
       if (row.form !== "text") {
         known.append(make("span", { class: "labelled wide" }, make("span", { class: "key", "aria-hidden": true }, words.key.about),
-          this.#field(about, words.of(words.key.about, row.name), { kind: "text", class: "about", size: 20 })));
+          this.field(about, words.of(words.key.about, row.name), { kind: "text", class: "about", size: 20 })));
       }
     }
     const unitPath = cell("unit") ? cell("unit").path : [...row.path, "unit"];
@@ -192,9 +114,9 @@ export class Form {
       make("td", { role: "cell", class: "shape" }, choice),
       known,
       make("td", { role: "cell", class: "unit" }, row.form === "text" || row.component ? null
-        : this.#field(unitPath, words.of(words.unit, row.name), { kind: "text", list: "units", size: 6, class: "unit" })),
+        : this.field(unitPath, words.of(words.unit, row.name), { kind: "text", list: "units", size: 6, class: "unit" })),
       make("td", { role: "cell", class: "density" }, picture, said),
-      make("td", { role: "cell", class: "removes" }, found.model ? null : this.#remove(row.path, row.name)));
+      make("td", { role: "cell", class: "removes" }, found.model ? null : this.remove(row.path, row.name)));
   }
 
   #distribution(row, shape) {
@@ -222,7 +144,7 @@ export class Form {
     const cell = key => row.cells.find(of => of.key === key);
     const path = (...keys) => [...row.path, ...keys];
     const field = (keys, word, more) => make("span", { class: "labelled" },
-      make("span", { class: "key", "aria-hidden": true }, word), this.#field(path(...keys), words.of(word, row.name), more));
+      make("span", { class: "key", "aria-hidden": true }, word), this.field(path(...keys), words.of(word, row.name), more));
     const complexTolerance = cell("tolerance") && cell("tolerance").kind !== "other";
     return make("div", { class: "row" },
       make("span", { class: "name" }, row.name),
@@ -230,24 +152,24 @@ export class Form {
       complexTolerance ? null : field(["tolerance", "lower"], `${words.key.tolerance}: ${words.key.lower}`, { size: 8, inputmode: "decimal", class: "figure" }),
       complexTolerance ? null : field(["tolerance", "upper"], `${words.key.tolerance}: ${words.key.upper}`, { size: 8, inputmode: "decimal", class: "figure" }),
       field(["about"], words.key.about, { kind: "text", size: 18, class: "about" }),
-      this.#remove(row.path, row.name));
+      this.remove(row.path, row.name));
   }
 
   #correlation(of) {
     const { words } = this;
-    const name = place => this.#field([...of.path, place], `${words.between} ${place + 1}`, { kind: "text", size: 9 });
+    const name = place => this.field([...of.path, place], `${words.between} ${place + 1}`, { kind: "text", size: 9 });
     return make("div", { class: "row" }, make("span", { class: "key" }, words.between), name(0),
       make("span", { class: "key" }, words.and), name(1),
       make("span", { class: "labelled" }, make("span", { class: "key", "aria-hidden": true }, "r"),
-        this.#field([...of.path, 2], words.coefficient, { size: 6, inputmode: "decimal", class: "figure" })),
-      this.#remove(of.path, of.between.join(", ")));
+        this.field([...of.path, 2], words.coefficient, { size: 6, inputmode: "decimal", class: "figure" })),
+      this.remove(of.path, of.between.join(", ")));
   }
 
   #condition(row) {
     const { words } = this;
     const cells = row.cells.filter(cell => cell.kind !== "other").map(cell =>
-      this.#labelled(cell, row.name || words.conditions, kindOf(cell)));
-    return make("div", { class: "row" }, row.name ? make("span", { class: "name" }, row.name) : null, ...cells, this.#remove(row.path, row.name));
+      this.labelled(cell, row.name || words.conditions, kindOf(cell)));
+    return make("div", { class: "row" }, row.name ? make("span", { class: "name" }, row.name) : null, ...cells, this.remove(row.path, row.name));
   }
 
   #settings(found) {
@@ -256,15 +178,15 @@ export class Form {
       place.dataset.language = this.page.language;
       const field = (path, key) => make("span", { class: "labelled" },
         make("span", { class: "key", "aria-hidden": true }, this.words.key[key]),
-        this.#field(path, this.words.key[key], { size: 9, inputmode: "decimal", class: "figure" }));
+        this.field(path, this.words.key[key], { size: 9, inputmode: "decimal", class: "figure" }));
       place.replaceChildren(make("div", { class: "row" }, field(["coverage_probability"], "coverage_probability"),
         field(["coverage_factor"], "coverage_factor"), field(["monte_carlo", "trials"], "trials"),
         field(["monte_carlo", "seed"], "seed"), field(["monte_carlo", "digits"], "digits")));
     }
     const of = found.settings || {};
-    this.#fill(at(["coverage_probability"]), of.coverage_probability || "");
-    this.#fill(at(["coverage_factor"]), of.coverage_factor || "");
-    for (const key of ["trials", "seed", "digits"]) this.#fill(at(["monte_carlo", key]), of[key] || "");
+    this.fill(at(["coverage_probability"]), of.coverage_probability || "");
+    this.fill(at(["coverage_factor"]), of.coverage_factor || "");
+    for (const key of ["trials", "seed", "digits"]) this.fill(at(["monte_carlo", key]), of[key] || "");
   }
 
   #chips(found) {
@@ -328,7 +250,7 @@ export class Form {
   }
 
   /** The slider takes hold of a field. */
-  #grab(path) {
+  focused(path) {
     const key = at(path);
     if ((this.numbers || []).some(of => of.key === key)) this.choose(key);
   }
@@ -357,34 +279,6 @@ export class Form {
     this.page.element("slide-value").textContent = typed;
     if (isNumber(typed)) this.page.edit([{ path: now.cell.path, typed }], `slide:${this.slid}`);
   }
-
-  /** Marks the fields with mistakes. */
-  mark(diagnostics) {
-    const wrong = new Map();
-    for (const of of diagnostics) {
-      for (let length = of.path.length; length > 1; length--) {
-        const key = at(of.path.slice(0, length));
-        const field = this.fields.get(key) || this.fields.get(key + "#choice") || this.fields.get(key + "#name");
-        if (field && "value" in field) { wrong.set(field, of.message); break; }
-      }
-    }
-    for (const field of this.fields.values()) {
-      if (!("value" in field)) continue;
-      const message = wrong.get(field);
-      if (message) field.setAttribute("aria-invalid", "true"); else field.removeAttribute("aria-invalid");
-      field.title = message || "";
-    }
-  }
-
-  /** The field of a path, or of what it lies in. */
-  fieldAt(path) {
-    for (let length = path.length; length > 0; length--) {
-      const key = at(path.slice(0, length));
-      const field = this.fields.get(key) || this.fields.get(key + "#choice") || this.fields.get(key + "#name");
-      if (field && "value" in field) return field;
-    }
-    return null;
-  }
 }
 
 /** What the fields of a row depend on, but not what stands in them. */
@@ -392,24 +286,6 @@ function signature(row) {
   const isExtra = cell => ["dof", "about", "tolerance"].includes(cell.key) || cell.path.length > 3 || cell.path[0] === "outputs";
   return [row.name, row.form, row.cells.filter(cell => !isExtra(cell)).map(cell =>
     [cell.key, ["list", "other"].includes(cell.kind) ? cell.kind : "", cell.key === "distribution" ? cell.raw : ""])];
-}
-
-/** What is pasted into a list: rows and columns of a table become one row. */
-function pasted(event, field, kind) {
-  const text = event.clipboardData.getData("text/plain");
-  if (kind !== "list" || !/[\t\r\n]/.test(text)) return;
-  event.preventDefault();
-  field.setRangeText(text.trim().replace(/[\t\r\n]+/g, "  "), field.selectionStart, field.selectionEnd, "end");
-  field.dispatchEvent(new InputEvent("input", { bubbles: true }));
-}
-
-/** Numbers as somebody typed or pasted them: with decimal commas where all of them can only be such. */
-function numbersOf(text, language) {
-  const numbers = text.trim().split(/[\s;]+/).filter(number => number !== "");
-  const isComma = number => /^[-+]?(\d+|\d{1,3}(\.\d{3})+)(,\d+)?(e[-+]?\d+)?$/i.test(number);
-  const commas = numbers.filter(number => number.includes(","));
-  if (commas.length === 0 || !numbers.every(isComma) || numbers.length < 2 && language !== "de") return text;
-  return numbers.map(number => number.includes(",") ? number.replaceAll(".", "").replace(",", ".") : number).join(" ");
 }
 
 function kindOf(cell) {

@@ -86,6 +86,7 @@ pub(crate) fn answer(
             let found = checked(files, other, name, text).err();
             answer["diagnostics"] =
                 found.map_or(json!([]), |found| diagnostics::list(text, &found));
+            answer["content"] = root.as_ref().map_or(Json::Null, |root| tree::content(bare, root));
             return Ok(answer);
         }
     };
@@ -138,7 +139,7 @@ fn merge(into: &mut Json, from: Json) {
 fn stated(text: &str, root: &Value<'_>, task: Option<&Task>) -> Json {
     let scalar = |keys: &[&str]| {
         let found = keys.iter().try_fold(root, |value, key| tree::get(value, key));
-        found.map_or(Json::Null, |value| json!(inputs::raw(text, value)))
+        found.map_or(Json::Null, |value| json!(tree::raw(text, value)))
     };
     let equations = tree::get(root, "equations").and_then(Value::as_object);
     let equations: Vec<Json> = equations
@@ -147,7 +148,7 @@ fn stated(text: &str, root: &Value<'_>, task: Option<&Task>) -> Json {
                 let name = member.name.as_str();
                 json!({
                     "name": name,
-                    "formula": inputs::raw(text, &member.value),
+                    "formula": tree::raw(text, &member.value),
                     "path": path_of(["equations", name]),
                 })
             };

@@ -13,10 +13,39 @@ pub(crate) struct NewRequest {
     example: Option<String>,
     #[serde(default)]
     template: Option<String>,
+    /// The kind of an empty file: a model unless given.
+    #[serde(default)]
+    kind: EmptyKind,
+}
+
+/// The kinds of empty files.
+#[derive(Clone, Copy, Debug, Default, Deserialize)]
+#[serde(rename_all = "lowercase")]
+enum EmptyKind {
+    #[default]
+    Model,
+    Certificate,
+    Case,
+}
+
+impl EmptyKind {
+    fn text(self) -> &'static str {
+        match self {
+            Self::Model => EMPTY,
+            Self::Certificate => EMPTY_CERTIFICATE,
+            Self::Case => EMPTY_CASE,
+        }
+    }
 }
 
 /// A model without content.
 const EMPTY: &str = "{\n  \"format\": 1,\n  \"title\": \"\",\n  \"inputs\": {},\n  \"equations\": {},\n  \"outputs\": {}\n}\n";
+
+/// A certificate without rows.
+const EMPTY_CERTIFICATE: &str = "{\n  \"format\": 1,\n  \"number\": \"\",\n  \"device\": {},\n  \"customer\": {},\n  \"laboratory\": {},\n  \"rows\": []\n}\n";
+
+/// A case of the gap diagnosis without data.
+const EMPTY_CASE: &str = "{\n  \"format\": 1,\n  \"title\": \"\",\n  \"inputs\": {},\n  \"conditions\": {},\n  \"equations\": {},\n  \"outputs\": {},\n  \"observations\": {},\n  \"effects\": {}\n}\n";
 
 /// The text of a new file.
 pub(crate) fn new(live: &Live<'_>, asked: &NewRequest) -> Result<Json, LiveError> {
@@ -24,7 +53,7 @@ pub(crate) fn new(live: &Live<'_>, asked: &NewRequest) -> Result<Json, LiveError
     let text = match (&asked.example, &asked.template) {
         (Some(name), _) => named(name, live.examples.iter().copied(), "example")?,
         (None, Some(name)) => named(name, templates, "measurement")?,
-        (None, None) => EMPTY,
+        (None, None) => asked.kind.text(),
     };
     Ok(json!({ "text": text }))
 }

@@ -5,21 +5,12 @@ use gumption_engine::task::{Task, Variable};
 use gumption_report::number::with_uncertainty;
 use gumption_report::{input_picture, plain};
 use jsonc_parser::ast::{Object, Value};
-use jsonc_parser::common::Ranged;
 use serde_json::{Value as Json, json};
 
-use crate::tree::{self, PathStep, path_of};
+use crate::tree::{self, PathStep, path_of, raw};
 
 /// Maximum number of rows of a table.
 const MOST: usize = 500;
-
-/// A value as a user would type it: a text without its quotes, everything else unchanged.
-pub(crate) fn raw(text: &str, value: &Value<'_>) -> String {
-    match value {
-        Value::StringLit(found) => found.value.clone().into_owned(),
-        other => text.get(other.start()..other.end()).unwrap_or("").to_owned(),
-    }
-}
 
 /// The keys of an object as cells; lists and objects as JSON text.
 fn cells(text: &str, object: &Object<'_>, path: &[PathStep]) -> Vec<Json> {

@@ -26,16 +26,22 @@ macro_rules! assets {
 const OWN: &[PageAsset] = assets! {
     "index.html": "text/html; charset=utf-8",
     "style.css": "text/css; charset=utf-8",
-    "page.js": "text/javascript; charset=utf-8",
     "answers.js": "text/javascript; charset=utf-8",
     "code.js": "text/javascript; charset=utf-8",
+    "dialog.js": "text/javascript; charset=utf-8",
     "document.js": "text/javascript; charset=utf-8",
+    "equations.js": "text/javascript; charset=utf-8",
+    "fields.js": "text/javascript; charset=utf-8",
+    "files.js": "text/javascript; charset=utf-8",
     "form.js": "text/javascript; charset=utf-8",
+    "mistakes.js": "text/javascript; charset=utf-8",
+    "page.js": "text/javascript; charset=utf-8",
     "parts.js": "text/javascript; charset=utf-8",
+    "result.js": "text/javascript; charset=utf-8",
     "transport.js": "text/javascript; charset=utf-8",
-    "worker.js": "text/javascript; charset=utf-8",
     "words.de.js": "text/javascript; charset=utf-8",
     "words.en.js": "text/javascript; charset=utf-8",
+    "worker.js": "text/javascript; charset=utf-8",
 };
 
 /// All files of the page.

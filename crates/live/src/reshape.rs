@@ -117,7 +117,7 @@ pub(crate) fn reshaped(files: FileReader<'_>, asked: &ReshapeRequest) -> Result<
         let made = written_out(files, asked, text, shape.name)?;
         return Ok(json!({ "text": made }));
     };
-    let value = |key: &str| tree::member(object, key).map(|of| inputs::raw(bare, &of.value));
+    let value = |key: &str| tree::member(object, key).map(|of| tree::raw(bare, &of.value));
     let has = |key: &str| tree::member(object, key).is_some();
     let number = |key: &str| value(key).and_then(|text| text.parse::<f64>().ok());
     let limits = number("lower").zip(number("upper"));

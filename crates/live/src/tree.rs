@@ -7,6 +7,7 @@ use jsonc_parser::ast::{Object, ObjectProp, Value};
 use jsonc_parser::common::Ranged;
 use jsonc_parser::{CollectOptions, ParseOptions, parse_to_ast};
 use serde::{Deserialize, Serialize};
+use serde_json::Value as Json;
 
 /// A step from a value to one inside it.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
@@ -52,6 +53,29 @@ pub(crate) fn at<'v, 't>(root: &'v Value<'t>, path: &[PathStep]) -> Option<&'v V
         PathStep::Key(key) => get(value, key),
         PathStep::Place(place) => value.as_array()?.elements.get(*place),
     })
+}
+
+/// What a value says, for the fields of a form: numbers as they are written.
+pub(crate) fn content(text: &str, value: &Value<'_>) -> Json {
+    match value {
+        Value::Object(object) => {
+            let member =
+                |of: &ObjectProp<'_>| (of.name.as_str().to_owned(), content(text, &of.value));
+            Json::Object(object.properties.iter().map(member).collect())
+        }
+        Value::Array(array) => array.elements.iter().map(|of| content(text, of)).collect(),
+        Value::BooleanLit(of) => Json::Bool(of.value),
+        Value::NullKeyword(_) => Json::Null,
+        Value::StringLit(_) | Value::NumberLit(_) => Json::String(raw(text, value)),
+    }
+}
+
+/// A value as a user would type it: a text without its quotes, everything else unchanged.
+pub(crate) fn raw(text: &str, value: &Value<'_>) -> String {
+    match value {
+        Value::StringLit(found) => found.value.clone().into_owned(),
+        other => text.get(other.start()..other.end()).unwrap_or("").to_owned(),
+    }
 }
 
 /// The path to the innermost value, or its key, at a position of the text.

@@ -1,0 +1,159 @@
+// Fields that show parts of the file by their paths and change them: what all forms have in common.
+
+import { at, make } from "./parts.js";
+
+// what need not be said of an input
+const OPTIONAL = ["dof", "about", "group", "type", "k", "p"];
+
+export class Fields {
+  /** Fields of a page within the element of that id. */
+  constructor(page, id) {
+    this.page = page;
+    this.element = page.element(id);
+    this.fields = new Map();
+  }
+
+  get words() { return this.page.words; }
+
+  /** The file is shown in every field, in that which somebody writes in as well. */
+  forget() {
+    for (const field of this.fields.values()) field.isTyped = false;
+  }
+
+  /** Makes all fields anew; the one that somebody writes in keeps the focus and what is typed. */
+  rebuild(build) {
+    const before = document.activeElement;
+    const key = before && before.dataset.key;
+    const typed = before && before.isTyped ? [before.value, before.selectionStart, before.selectionEnd] : null;
+    this.fields.clear();
+    build();
+    const field = key && this.fields.get(key);
+    if (!field) return;
+    field.focus();
+    if (typed && field.tagName === "INPUT") {
+      field.isTyped = true;
+      field.value = typed[0];
+      field.setSelectionRange(typed[1], typed[2]);
+    }
+  }
+
+  fill(key, value, kind) {
+    const field = this.fields.get(key);
+    if (!field) return;
+    field.written = value;
+    if (document.activeElement === field && field.tagName !== "SELECT" && field.isTyped) return;
+    if (kind === "list") value = value.replace(/^\s*\[|\]\s*$/g, "").replace(/\s*,\s*/g, "  ").trim();
+    if (kind === "null") value = "";
+    if (field.value !== value) field.value = value;
+  }
+
+  /** A field has the focus. */
+  focused() {}
+
+  /** A field of text for a cell. */
+  field(path, label, properties = {}) {
+    const key = at(path);
+    const field = make("input", {
+      autocomplete: "off", spellcheck: false, autocapitalize: "off", "aria-label": label, size: 8, ...properties,
+      oninput: () => { field.isTyped = true; this.typed(field, path, properties.kind); },
+      onfocus: () => this.focused(path),
+      onblur: () => { field.isTyped = false; },
+      onpaste: event => pasted(event, field, properties.kind),
+    });
+    field.dataset.key = key;
+    if (properties.inputmode) field.setAttribute("inputmode", properties.inputmode);
+    this.fields.set(key, field);
+    return field;
+  }
+
+  typed(field, path, kind) {
+    let typed = field.value;
+    if (typed.trim() === "") {
+      // what need not be said is not said; everything else asks for a value
+      const isThere = field.written !== undefined && field.written !== "";
+      field.written = "";
+      if (OPTIONAL.includes(path[path.length - 1]) || path[0] !== "inputs") {
+        if (isThere) this.page.edit([{ path: this.whole(path), remove: true }], `typed:${at(path)}`);
+      } else {
+        this.page.edit([{ path, value: kind === "list" ? [] : kind === "text" ? "" : null }], `typed:${at(path)}`);
+      }
+      return;
+    }
+    field.written = typed;
+    if (this.page.language === "de" && /^\s*[-+]?\d+,\d+(e[-+]?\d+)?\s*$/i.test(typed)) typed = typed.replace(",", ".");
+    if (kind === "list") typed = `[${numbersOf(typed, this.page.language)}]`;
+    const edit = kind === "text" ? { path, value: typed } : { path, typed };
+    this.page.edit([edit], `typed:${at(path)}`);
+  }
+
+  /** What goes with a cell that goes: a tolerance without limits is none. */
+  whole(path) {
+    if (path[2] !== "tolerance") return path;
+    const other = path[3] === "lower" ? "upper" : "lower";
+    const field = this.fields.get(at([...path.slice(0, 3), other]));
+    return field && field.value.trim() === "" ? path.slice(0, 3) : path;
+  }
+
+  remove(path, name) {
+    return make("button", {
+      type: "button", class: "icon remove", "aria-label": this.words.remove_of(name), title: this.words.remove_of(name),
+      onclick: () => this.page.edit([{ path, remove: true }], null, true),
+    }, "×");
+  }
+
+  labelled(cell, name, kind) {
+    const word = this.words.key[cell.key] || cell.key;
+    const numeric = kind !== "text" && kind !== "list";
+    const field = this.field(cell.path, this.words.of(word, name), {
+      kind, size: kind === "list" ? 28 : 7, inputmode: numeric ? "decimal" : null,
+      class: kind === "list" ? "list" : numeric ? "figure" : null,
+    });
+    return make("span", { class: "labelled" }, make("span", { class: "key", "aria-hidden": true }, word), field);
+  }
+
+  /** Marks the fields with mistakes. */
+  mark(diagnostics) {
+    const wrong = new Map();
+    for (const of of diagnostics) {
+      for (let length = of.path.length; length > 1; length--) {
+        const key = at(of.path.slice(0, length));
+        const field = this.fields.get(key) || this.fields.get(key + "#choice") || this.fields.get(key + "#name");
+        if (field && "value" in field) { wrong.set(field, of.message); break; }
+      }
+    }
+    for (const field of this.fields.values()) {
+      if (!("value" in field)) continue;
+      const message = wrong.get(field);
+      if (message) field.setAttribute("aria-invalid", "true"); else field.removeAttribute("aria-invalid");
+      field.title = message || "";
+    }
+  }
+
+  /** The field of a path, or of what it lies in. */
+  fieldAt(path) {
+    for (let length = path.length; length > 0; length--) {
+      const key = at(path.slice(0, length));
+      const field = this.fields.get(key) || this.fields.get(key + "#choice") || this.fields.get(key + "#name");
+      if (field && "value" in field) return field;
+    }
+    return null;
+  }
+}
+
+/** What is pasted into a list: rows and columns of a table become one row. */
+function pasted(event, field, kind) {
+  const text = event.clipboardData.getData("text/plain");
+  if (kind !== "list" || !/[\t\r\n]/.test(text)) return;
+  event.preventDefault();
+  field.setRangeText(text.trim().replace(/[\t\r\n]+/g, "  "), field.selectionStart, field.selectionEnd, "end");
+  field.dispatchEvent(new InputEvent("input", { bubbles: true }));
+}
+
+/** Numbers as somebody typed or pasted them: with decimal commas where all of them can only be such. */
+function numbersOf(text, language) {
+  const numbers = text.trim().split(/[\s;]+/).filter(number => number !== "");
+  const isComma = number => /^[-+]?(\d+|\d{1,3}(\.\d{3})+)(,\d+)?(e[-+]?\d+)?$/i.test(number);
+  const commas = numbers.filter(number => number.includes(","));
+  if (commas.length === 0 || !numbers.every(isComma) || numbers.length < 2 && language !== "de") return text;
+  return numbers.map(number => number.includes(",") ? number.replaceAll(".", "").replace(",", ".") : number).join(" ");
+}

@@ -1,0 +1,199 @@
+// The result of a model: headline, budget, figures; of other files their page.
+
+import { make, put, unit } from "./parts.js";
+
+const SPEAK = 900;
+
+export class Result {
+  constructor(page) {
+    this.page = page;
+    this.element = page.element;
+  }
+
+  get words() { return this.page.words; }
+
+  /** Nothing is shown, as of a file that was just opened. */
+  clear() {
+    this.hasResults = false;
+    this.reported = null;
+    this.element("box-audit").hidden = true;
+    this.element("results").hidden = true;
+  }
+
+  /** What is no answer to the text as it stands is old as a whole, and says why. */
+  age() {
+    const { words } = this;
+    const why = this.page.isLost ? words.old_lost : this.page.isUnanswered ? words.old_failed : this.isBefore ? words.stale : null;
+    this.element("results").classList.toggle("stale", why !== null);
+    if (why !== null) this.element("progress").textContent = this.hasResults ? why : "";
+    if (this.page.isLost || this.page.isUnanswered) this.element("report").classList.add("stale");
+  }
+
+  results(found) {
+    const { words } = this;
+    this.element("report").hidden = true;
+    const has = found.results !== undefined;
+    const results = this.element("results");
+    this.isBefore = !has;
+    if (!has) {
+      this.age();
+      this.element("nothing").hidden = this.hasResults;
+      results.hidden = !this.hasResults;
+      return;
+    }
+    this.hasResults = true;
+    results.hidden = false;
+    this.element("nothing").hidden = true;
+    const outputs = found.results;
+    this.page.chosen = Math.max(0, Math.min(this.page.chosen, outputs.length - 1));
+    this.#tabs(outputs);
+    this.#rows(found);
+    const of = outputs[this.page.chosen];
+    for (const id of ["box-budget", "box-comparison"]) this.element(id).hidden = !of;
+    this.#headline(of, found);
+    const part = (id, html) => put(this.element(`part-${id}`), html);
+    part("distribution", of ? of.html.distribution : "");
+    part("budget", of ? of.html.budget : "");
+    part("comparison", of ? of.html.comparison : "");
+    part("conclusions", of ? of.html.conclusions : "");
+    part("verdict", of ? of.html.verdict : "");
+    part("together", found.together);
+    // the rows of a sweep are the result; correlations of outputs come after the outputs
+    const isSweep = (found.row_names || []).length > 0;
+    this.element("box-audit").before(this.element("part-together"));
+    if (isSweep) this.element("box-budget").before(this.element("part-together"));
+    // what the sentences above say already is not said again
+    const said = this.element("part-verdict").textContent;
+    const further = found.notes.map(text => text.replaceAll("`", "")).filter(text => !said.includes(text));
+    const notes = this.element("notes"), key = JSON.stringify(further);
+    if (notes.dataset.key !== key) {
+      notes.dataset.key = key;
+      notes.replaceChildren(...further.map(text => make("li", {}, text)));
+    }
+    const trials = String(found.trials).replace(/\B(?=(\d{3})+$)/g, "\u202f");
+    const rest = found.whole ? words.done : found.full ? words.cut : words.refining;
+    this.element("progress").textContent = found.trials ? words.trials(trials) + rest : "";
+    this.age();
+  }
+
+  #tabs(outputs) {
+    const tabs = this.element("output-tabs");
+    const key = JSON.stringify(outputs.map(of => of.name));
+    tabs.hidden = outputs.length < 2;
+    if (tabs.dataset.names !== key) {
+      tabs.dataset.names = key;
+      tabs.replaceChildren(...outputs.map((of, place) => make("button", {
+        type: "button", onclick: () => {
+          this.page.chosen = place;
+          // the parts of the others were not asked for
+          if (outputs[place].html.verdict === "") this.page.ask();
+          else this.results(this.page.found);
+        },
+      }, of.name)));
+    }
+    [...tabs.children].forEach((button, place) => button.setAttribute("aria-pressed", place === this.page.chosen));
+  }
+
+  /** The rows of conditions: the headline and the parts below it are about one of them. */
+  #rows(found) {
+    const box = this.element("rows-box"), choice = this.element("rows");
+    const names = found.row_names || [];
+    box.hidden = names.length === 0;
+    this.page.row = found.row || 0;
+    const key = JSON.stringify(names);
+    if (choice.dataset.names !== key) {
+      choice.dataset.names = key;
+      choice.replaceChildren(...names.map((name, place) => make("option", { value: String(place) }, name)));
+    }
+    choice.value = String(this.page.row);
+    const first = this.page.row === 0, last = this.page.row >= names.length - 1;
+    this.element("row-before").disabled = first;
+    this.element("row-after").disabled = last;
+  }
+
+  #headline(of, found) {
+    const { words } = this;
+    const place = this.element("headline"), badges = this.element("badges");
+    if (!of) {
+      place.replaceChildren();
+      badges.replaceChildren();
+      return;
+    }
+    const { statement, gum, clause_8: clause, conformity } = of;
+    const bare = of.unit === "" || of.unit === "1";
+    const percent = words.number(String(Number((100 * found.coverage_probability).toFixed(2))));
+    const number = text => words.number(text);
+    const value = make("p", { class: "value" });
+    const said = [];
+    if (statement.kind === "expanded") {
+      const both = `${number(statement.estimate)} ± ${number(statement.expanded)}`;
+      value.append(make("i", {}, of.name), " = ", bare ? both : `(${both})`);
+      said.push(`k = ${number(statement.factor)}`, words.coverage(percent));
+    } else if (statement.kind === "interval") {
+      value.append(make("i", {}, of.name), " = ", number(statement.estimate));
+      said.push(`${words.interval} ${words.from_to(number(statement.low), number(statement.high))} (${statement.shortest ? words.shortest : words.symmetric})`, words.coverage(percent));
+    } else if (statement.kind === "standard") {
+      value.append(make("i", {}, of.name), " = ", number(statement.estimate));
+      said.push(words.standard(number(statement.uncertainty)));
+    } else {
+      value.append(make("i", {}, of.name), " ", words.undefined);
+    }
+    if (!bare && statement.kind !== "undefined") value.append("\u2009", make("span", { class: "unit" }, ...unit(of.unit)));
+    const line = make("p", { class: "said" }, said.join(" · "));
+    const key = value.textContent + line.textContent;
+    if (place.dataset.key !== key) {
+      place.dataset.key = key;
+      place.replaceChildren(value, line);
+      clearTimeout(this.speaker);
+      this.speaker = setTimeout(() => { this.element("spoken").textContent = `${value.textContent}; ${line.textContent}`; }, SPEAK);
+    }
+    const marks = [];
+    if (clause) {
+      const text = clause.valid === true ? words.clause_yes : clause.valid === false ? words.clause_no : words.clause_open;
+      const look = clause.valid === true ? "yes" : clause.valid === false ? "no" : "open";
+      marks.push(make("span", { class: `badge ${look}` }, text), make("span", { class: "detail" }, words.clause_detail(clause)));
+    }
+    if (conformity) {
+      // what rounds to certainty is none
+      const share = 100 * conformity.probability;
+      const p = share >= 99.995 ? "> 99.99" : share < 0.005 ? "< 0.01" : String(Number(share.toFixed(2)));
+      marks.push(make("span", { class: `badge ${conformity.conforms ? "yes" : "no"}` }, conformity.conforms ? words.conforms(number(p)) : words.not_conforms(number(p))));
+    }
+    badges.replaceChildren(...marks);
+  }
+
+  audit(found) {
+    this.element("box-audit").hidden = !found.html;
+    put(this.element("part-audit"), found.html || "");
+  }
+
+  /** The page of a case, a certificate, a comparison or a recipe. */
+  report(found, request) {
+    this.element("results").hidden = true;
+    this.hasResults = false;
+    this.element("output-tabs").hidden = true;
+    this.element("nothing").hidden = true;
+    const frame = this.element("report");
+    if (["other", "costs", "result"].includes(found.kind)) { frame.hidden = true; return; }
+    frame.hidden = false;
+    clearTimeout(this.reporter);
+    const { text, path } = request;
+    // what was true before the mistake stays there
+    frame.classList.toggle("stale", found.diagnostics.length > 0);
+    if (this.reported === text || found.diagnostics.length) return;
+    this.reporter = setTimeout(async () => {
+      try {
+        const address = await this.page.program.page({ path, text });
+        if (text !== this.page.document.text) return;
+        this.reported = text;
+        frame.src = address;
+        this.page.mistakes.told(null);
+      } catch (error) {
+        const told = error.answer && error.answer.diagnostics;
+        if (!told || text !== this.page.document.text) return this.page.failed(error);
+        this.page.mistakes.show({ ...found, diagnostics: told }, request);
+        frame.classList.add("stale");
+      }
+    }, this.reported ? 900 : 0);
+  }
+}
