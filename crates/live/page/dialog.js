@@ -17,11 +17,13 @@ export class Dialog {
     this.element("dialog-title").textContent = title;
     this.element("dialog-body").replaceChildren(body);
     this.element("dialog-actions").replaceChildren(...actions.map(([label, value], place) =>
-      make("button", { type: "button", class: place === 0 ? "first" : "", onclick: () => this.close(value) }, label)));
+      make("button", { type: "button", class: place === 0 && value !== null ? "first" : "", onclick: () => this.close(value) }, label)));
     dialog.showModal();
     const field = body.querySelector("input");
     if (field) {
       field.focus();
+      // of a file's name all but its ending
+      if (field.value.includes(".")) field.setSelectionRange(0, field.value.lastIndexOf("."));
       field.addEventListener("keydown", event => { if (event.key === "Enter") this.close(actions[0][1]); });
     }
     return new Promise(resolve => {

@@ -2,15 +2,13 @@
 
 import { at, make } from "./parts.js";
 
-// what need not be said of an input
-const OPTIONAL = ["dof", "about", "group", "type", "k", "p"];
-
 export class Fields {
   /** Fields of a page within the element of that id. */
   constructor(page, id) {
     this.page = page;
     this.element = page.element(id);
     this.fields = new Map();
+    this.sessions = 0;
   }
 
   get words() { return this.page.words; }
@@ -41,49 +39,80 @@ export class Fields {
     const field = this.fields.get(key);
     if (!field) return;
     field.written = value;
+    field.writtenKind = kind;
     if (document.activeElement === field && field.tagName !== "SELECT" && field.isTyped) return;
     if (kind === "list") value = value.replace(/^\s*\[|\]\s*$/g, "").replace(/\s*,\s*/g, "  ").trim();
     if (kind === "null") value = "";
+    if (["number", "list"].includes(kind) && this.page.language === "de") value = value.replaceAll(".", ",");
     if (field.value !== value) field.value = value;
   }
 
   /** A field has the focus. */
   focused() {}
 
-  /** A field of text for a cell. */
-  field(path, label, properties = {}) {
+  /** A field of text for the value at a path. What `isOptional` goes from the file when it is emptied. */
+  field(path, label, { kind = null, isOptional = false, ...attributes } = {}) {
     const key = at(path);
     const field = make("input", {
-      autocomplete: "off", spellcheck: false, autocapitalize: "off", "aria-label": label, size: 8, ...properties,
-      oninput: () => { field.isTyped = true; this.typed(field, path, properties.kind); },
-      onfocus: () => this.focused(path),
-      onblur: () => { field.isTyped = false; },
-      onpaste: event => pasted(event, field, properties.kind),
+      autocomplete: "off", spellcheck: false, autocapitalize: "off", "aria-label": label, size: 8, ...attributes,
+      oninput: () => { field.isTyped = true; this.typed(field, path, kind); },
+      // what is typed between two visits of the field is one change of the file
+      onfocus: () => { field.session = ++this.sessions; this.focused(path); },
+      onblur: () => { field.isTyped = false; this.fill(key, field.written ?? field.value, field.writtenKind); },
+      onpaste: event => this.pasted(event, field, kind),
     });
     field.dataset.key = key;
-    if (properties.inputmode) field.setAttribute("inputmode", properties.inputmode);
+    field.isOptional = isOptional;
     this.fields.set(key, field);
     return field;
   }
 
+  /** A field with its name before it: `short` where there is a symbol for it. */
+  named(path, word, name, properties, short = word) {
+    const field = this.field(path, this.words.of(word, name), properties);
+    const look = `labelled${properties.class === "list" ? " wide" : ""}${properties.isOptional ? " optional" : ""}`;
+    return make("label", { class: look, title: word },
+      short === "" ? null : make("span", { class: "key", "aria-hidden": true }, short), field);
+  }
+
   typed(field, path, kind) {
+    const change = `typed:${at(path)}#${field.session}`;
     let typed = field.value;
     if (typed.trim() === "") {
       // what need not be said is not said; everything else asks for a value
       const isThere = field.written !== undefined && field.written !== "";
       field.written = "";
-      if (OPTIONAL.includes(path[path.length - 1]) || path[0] !== "inputs") {
-        if (isThere) this.page.edit([{ path: this.whole(path), remove: true }], `typed:${at(path)}`);
+      if (field.isOptional || path[0] !== "inputs") {
+        if (isThere) this.page.edit([{ path: this.whole(path), remove: true }], change);
       } else {
-        this.page.edit([{ path, value: kind === "list" ? [] : kind === "text" ? "" : null }], `typed:${at(path)}`);
+        this.page.edit([{ path, value: kind === "list" ? [] : kind === "text" ? "" : null }], change);
       }
       return;
     }
     field.written = typed;
-    if (this.page.language === "de" && /^\s*[-+]?\d+,\d+(e[-+]?\d+)?\s*$/i.test(typed)) typed = typed.replace(",", ".");
+    field.writtenKind = null;
     if (kind === "list") typed = `[${numbersOf(typed, this.page.language)}]`;
-    const edit = kind === "text" ? { path, value: typed } : { path, typed };
-    this.page.edit([edit], `typed:${at(path)}`);
+    // between two digits a comma is a decimal one there
+    else if (kind === null && this.page.language === "de") typed = typed.replace(/(\d),(?=\d)/g, "$1.");
+    const edit = kind === "text" && !isQuantity(typed, path) ? { path, value: typed } : { path, typed };
+    this.page.edit([edit], change);
+  }
+
+  /** What is pasted into a list: one row or column of a table; of several columns with headings one is chosen. */
+  async pasted(event, field, kind) {
+    const text = event.clipboardData.getData("text/plain");
+    if (kind !== "list" || !/[\t\r\n]/.test(text)) return;
+    event.preventDefault();
+    const { selectionStart, selectionEnd } = field;
+    const lines = text.split(/\r?\n/).filter(line => line.trim() !== "");
+    const mark = ["\t", ";", ","].find(mark => lines[0].includes(mark));
+    const hasHeadings = mark !== undefined && lines.length > 1 && lines[0].split(mark).some(name => /[a-z]/i.test(name.replace(/\de[-+]?\d/gi, "")));
+    const rows = lines.map(line => hasHeadings ? line.split(mark) : [line.replace(/\t+/g, "  ")]);
+    const values = hasHeadings ? await this.page.form.pickers.column(rows) : rows.flat();
+    if (values === null) return;
+    field.focus();
+    field.setRangeText(values.join("  "), selectionStart, selectionEnd, "end");
+    field.dispatchEvent(new InputEvent("input", { bubbles: true }));
   }
 
   /** What goes with a cell that goes: a tolerance without limits is none. */
@@ -140,15 +169,6 @@ export class Fields {
   }
 }
 
-/** What is pasted into a list: rows and columns of a table become one row. */
-function pasted(event, field, kind) {
-  const text = event.clipboardData.getData("text/plain");
-  if (kind !== "list" || !/[\t\r\n]/.test(text)) return;
-  event.preventDefault();
-  field.setRangeText(text.trim().replace(/[\t\r\n]+/g, "  "), field.selectionStart, field.selectionEnd, "end");
-  field.dispatchEvent(new InputEvent("input", { bubbles: true }));
-}
-
 /** Numbers as somebody typed or pasted them: with decimal commas where all of them can only be such. */
 function numbersOf(text, language) {
   const numbers = text.trim().split(/[\s;]+/).filter(number => number !== "");
@@ -157,3 +177,6 @@ function numbersOf(text, language) {
   if (commas.length === 0 || !numbers.every(isComma) || numbers.length < 2 && language !== "de") return text;
   return numbers.map(number => number.includes(",") ? number.replaceAll(".", "").replace(",", ".") : number).join(" ");
 }
+
+/** Whether a text in a field for a unit begins like a quantity: such a text may fill other fields too. */
+function isQuantity(text, path) { return path[path.length - 1] === "unit" && /^\s*[-+]?\d/.test(text) && !/^\s*1(\s*\/|\s*$)/.test(text); }

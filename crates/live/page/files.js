@@ -2,8 +2,8 @@
 
 import { make } from "./parts.js";
 
-const FORMATS = { model: ["html", "xlsx", "markdown", "latex", "csv", "json"], certificate: ["html", "dcc", "xlsx", "markdown", "latex", "csv"], case: ["html", "json"], comparison: ["html", "json", "csv"], recipe: ["json", "csv"] };
-const ENDINGS = { markdown: "md", latex: "tex", dcc: "xml" };
+const FORMATS = { model: ["html", "xlsx", "markdown", "latex", "csv", "json", "result"], certificate: ["html", "dcc", "xlsx", "markdown", "latex", "csv"], case: ["html", "json"], comparison: ["html", "json", "csv"], recipe: ["json", "csv"] };
+const ENDINGS = { markdown: "md", latex: "tex", dcc: "xml", result: "result.json" };
 
 export class Files {
   constructor(page) {
@@ -17,8 +17,10 @@ export class Files {
     const { words } = this;
     const { path, isSaved, text } = this.page.document;
     this.element("path").textContent = path || this.page.named || words.unnamed;
-    const wrong = this.page.mistakes.diagnostics && this.page.mistakes.diagnostics.length > 0;
-    const state = this.page.isLost ? words.lost : !this.page.program.hasFolder ? words.offline : path === null && isSaved ? "" : isSaved ? words.saved : wrong ? words.changed_mistakes : words.changed;
+    const { diagnostics, open } = this.page.mistakes;
+    const changed = diagnostics.length ? words.changed_mistakes : open.length ? words.changed_open : words.changed;
+    const isUntouched = path === null && text === this.page.pristine;
+    const state = this.page.isLost ? words.lost : !this.page.program.hasFolder ? words.offline : isUntouched ? "" : isSaved ? words.saved : changed;
     this.say("state", state);
     this.element("undo").disabled = this.page.document.past.length === 0;
     this.element("redo").disabled = this.page.document.future.length === 0;
@@ -43,6 +45,7 @@ export class Files {
     this.page.pristine = text;
     this.page.found = null;
     this.page.mistakes.diagnostics = [];
+    this.page.mistakes.open = [];
     this.page.begin();
     this.state();
   }
@@ -64,7 +67,7 @@ export class Files {
   async autosave() {
     const { path, isSaved } = this.page.document;
     if (path === null || isSaved || !this.page.program.hasFolder) return;
-    if (this.page.mistakes.diagnostics && this.page.mistakes.diagnostics.length) return;
+    if (this.page.found && this.page.found.diagnostics.length) return;
     await this.save();
   }
 
@@ -183,9 +186,10 @@ export class Files {
 
   async exportDialog() {
     const { words } = this;
-    const formats = FORMATS[this.page.kind] || [];
+    // a workbook and a saved result need a clock and a disk
+    const formats = (FORMATS[this.page.kind] || []).filter(of => this.page.program.hasFolder || !["xlsx", "result"].includes(of));
     const body = make("div", { class: "list" }, ...formats.map(format =>
-      make("button", { type: "button", class: "entry", onclick: () => this.page.dialog.close(format) }, make("b", {}, format))));
+      make("button", { type: "button", class: "entry", onclick: () => this.page.dialog.close(format) }, make("b", {}, words.formats[format]), " ", make("span", { class: "detail" }, `.${ENDINGS[format] || format}`))));
     const format = await this.page.dialog.choose(words.export_title, body, [[words.cancel, null]]);
     if (!format) return;
     try {

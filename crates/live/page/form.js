@@ -1,26 +1,39 @@
-// The form: fields that show parts of the file and change them.
+// The form of a model: its inputs, each by the way in which it is known, its outputs and settings.
 
 import { Fields } from "./fields.js";
-import { at, isNumber, make, put, unit } from "./parts.js";
+import { Pickers } from "./pickers.js";
+import { Slider } from "./slider.js";
+import { at, make, put } from "./parts.js";
 
-const CENTRES = ["mean", "value", "mode", "count"];
+// the ways that most inputs are known by; the other distributions come after them
+const USUAL = ["standard", "expanded", "expanded-p", "limits", "bounds", "datasheet", "readings", "dcc", "result", "constant"];
+// more inputs than this have compact rows
+const MANY = 10;
+// what a picker fills in
+const PICKED = ["readings", "dcc", "result"];
 const ASIDE = ["unit", "distribution", "about", "components", "complex"];
-// fields that are there whether the file says something or not
-const OPTIONS = ["\u0001dof", "\u0001about", "tolerance\u0001lower", "tolerance\u0001upper"];
-const WORDED = ["std", "half_width", "semi_range", "scale", "expanded", "lower", "upper", "std_low", "std_high"];
 
 export class Form extends Fields {
   constructor(page) {
     super(page, "form");
-    this.kinds = { distributions: [], units: [] };
-    this.slid = null;
+    this.kinds = { distributions: [], ways: [], units: [] };
+    this.slider = new Slider(page);
+    this.pickers = new Pickers(page);
+    this.clear();
+  }
+
+  /** Another file is open. */
+  clear() {
     this.shape = "";
+    // the ways that were chosen, and what was typed, by the name of the input
+    this.chosen = new Map();
+    this.kept = new Map();
   }
 
   /** Shows what an answer says of the file; `force` also in the field that somebody writes in. */
   show(found, force = false) {
     if (force) this.forget();
-    const shape = JSON.stringify([this.page.language, found.model, (found.inputs || []).map(signature),
+    const shape = JSON.stringify([this.page.language, found.model, (found.inputs || []).map(row => [this.#way(row), signature(row)]),
       (found.outputs || []).map(signature), found.correlations && found.correlations.map(of => at(of.path)),
       found.conditions && found.conditions.rows.map(signature)]);
     if (shape !== this.shape) {
@@ -31,7 +44,11 @@ export class Form extends Fields {
     const there = new Set(rows.flatMap(row => row.cells.map(cell => at(cell.path))));
     // what the file does not say any more
     for (const [key, field] of this.fields) {
-      if (field.tagName === "INPUT" && !key.includes("#") && key.includes("\u0001") && !there.has(key) && OPTIONS.some(of => key.endsWith(of))) this.fill(key, "");
+      if (field.isOptional && !there.has(key)) this.fill(key, "");
+    }
+    for (const row of found.inputs || []) {
+      const typed = row.cells.filter(cell => !ASIDE.includes(cell.key) && ["number", "text", "list"].includes(cell.kind) && cell.raw !== "");
+      this.kept.set(row.name, { ...this.kept.get(row.name), ...Object.fromEntries(typed.map(cell => [cell.key, cell.raw])) });
     }
     for (const row of rows) {
       for (const cell of row.cells) this.fill(at(cell.path), cell.raw, cell.kind);
@@ -40,7 +57,7 @@ export class Form extends Fields {
       const picture = this.fields.get(at(row.path) + "#picture");
       if (picture && (row.picture || found.results)) put(picture, row.picture || "");
       const said = this.fields.get(at(row.path) + "#said");
-      if (said && row.said) said.replaceChildren(`u = ${row.said[1]} `, ...unit(row.said[2] === "1" ? "" : row.said[2]));
+      if (said && row.said) said.textContent = `u = ${this.words.number(row.said[1])}`;
     }
     for (const of of found.correlations || []) {
       of.between.forEach((name, place) => this.fill(at([...of.path, place]), name));
@@ -48,12 +65,15 @@ export class Form extends Fields {
     }
     this.#settings(found);
     this.#chips(found);
-    this.#slides(found);
+    this.slider.show(found);
   }
+
+  focused(path) { this.slider.choose(at(path)); }
 
   #build(found) {
     const inputs = (found.inputs || []).map(row => this.#input(row, found));
     this.page.element("inputs").replaceChildren(...inputs);
+    this.page.element("inputs").parentElement.classList.toggle("dense", inputs.length > MANY);
     this.page.element("outputs").replaceChildren(...(found.outputs || []).map(row => this.#output(row, found)));
     this.page.element("correlations").replaceChildren(...(found.correlations || []).map(of => this.#correlation(of)));
     this.page.element("conditions").replaceChildren(...((found.conditions || {}).rows || []).map(row => this.#condition(row)));
@@ -74,66 +94,83 @@ export class Form extends Fields {
   }
 
   #input(row, found) {
-    const { words, kinds } = this;
-    const cell = key => row.cells.find(of => of.key === key);
-    const shape = cell("distribution");
-    const known = make("td", { role: "cell", class: "known" });
-    const keys = shapeOf(kinds, shape && shape.raw);
-    if (row.form === "object") {
-      const own = row.cells.filter(of => of.key !== "dof" || !keys || !WORDED.some(key => cell(key))).filter(of => keys ? keys.keys.includes(of.key) : !ASIDE.includes(of.key) && of.kind !== "other");
-      own.sort((a, b) => rank(a.key) - rank(b.key));
-      const fields = own.filter(of => of.kind !== "other")
-        .map(of => this.labelled(of, row.name, kindOf(of)));
-      known.append(...fields);
-      if (keys && keys.keys.includes("dof") && WORDED.some(key => cell(key))) {
-        const path = [...row.path, "dof"];
-        const dof = this.field(path, words.of(words.key.dof, row.name), { size: 4, inputmode: "decimal", class: "figure few", placeholder: "∞" });
-        known.append(make("span", { class: "labelled" }, make("span", { class: "key", "aria-hidden": true }, words.key.dof), dof));
-      }
-    } else if (row.form === "text") {
-      known.append(make("span", { class: "labelled wide" }, make("span", { class: "key", "aria-hidden": true }, words.text_value),
-        this.field(row.path, words.of(words.text_value, row.name), { kind: "text", size: 24 })));
-    }
-    if (!row.component || cell("about")) {
-      const about = cell("about") ? cell("about").path : [...row.path, "about"];
-      if (row.form !== "text") {
-        known.append(make("span", { class: "labelled wide" }, make("span", { class: "key", "aria-hidden": true }, words.key.about),
-          this.field(about, words.of(words.key.about, row.name), { kind: "text", class: "about", size: 20 })));
-      }
-    }
-    const unitPath = cell("unit") ? cell("unit").path : [...row.path, "unit"];
+    const { words } = this;
+    const has = key => row.cells.some(of => of.key === key);
     const said = make("span", { class: "said" });
     const picture = make("span", { class: "picture", "aria-hidden": "true" });
     this.fields.set(at(row.path) + "#said", said);
     this.fields.set(at(row.path) + "#picture", picture);
-    const choice = row.form === "object" || row.form === "text" ? this.#distribution(row, shape) : make("span", { class: "said" }, words[row.form]);
+    const isText = row.form === "text";
+    const choice = row.form === "object" || isText ? this.#how(row) : make("span", { class: "said" }, words[row.form]);
     const isFixed = Boolean(found.model) || row.component;
     const name = isFixed ? make("span", { class: "name" }, row.name) : this.#name(row, row.path);
+    const about = isText || row.component && !has("about") ? null
+      : this.field([...row.path, "about"], words.of(words.key.about, row.name), { kind: "text", class: "about", size: 6, placeholder: "✎", title: words.key.about, isOptional: true });
     return make("tr", { role: "row", class: row.component ? "component" : "" },
       make("th", { scope: "row", role: "rowheader" }, name),
       make("td", { role: "cell", class: "shape" }, choice),
-      known,
-      make("td", { role: "cell", class: "unit" }, row.form === "text" || row.component ? null
-        : this.field(unitPath, words.of(words.unit, row.name), { kind: "text", list: "units", size: 6, class: "unit" })),
+      make("td", { role: "cell", class: "known" }, ...this.#known(row), about),
+      make("td", { role: "cell", class: "unit" }, isText || row.component ? null
+        : this.field([...row.path, "unit"], words.of(words.unit, row.name), { kind: "text", list: "units", size: 6, class: "unit", placeholder: words.unit, isOptional: true })),
       make("td", { role: "cell", class: "density" }, picture, said),
       make("td", { role: "cell", class: "removes" }, found.model ? null : this.remove(row.path, row.name)));
   }
 
-  #distribution(row, shape) {
-    const { words, kinds } = this;
-    const choice = make("select", {
-      "aria-label": words.of(words.distribution, row.name),
-      onchange: () => this.page.reshape(row.path, choice.value),
+  /** The fields of the way in which an input is known. */
+  #known(row) {
+    const { words } = this;
+    if (row.form === "text") return [this.named(row.path, words.text_value, row.name, { kind: "text", size: 24 })];
+    if (row.form !== "object") return [];
+    const way = this.#wayOf(this.#way(row)) || { needed: [], offered: [] };
+    const cells = row.cells.filter(cell => !ASIDE.includes(cell.key) && cell.kind !== "other");
+    const keys = [...way.needed, ...cells.map(cell => cell.key), ...way.offered];
+    const shown = [...new Set(keys)].filter(key => way.offered.includes(key) || cells.some(cell => cell.key === key));
+    const fields = shown.map(key => {
+      const cell = cells.find(cell => cell.key === key) || { key, kind: null };
+      const kind = kindOf(cell);
+      const isWide = kind === "list" || key === "half_width" && way.name === "datasheet";
+      return this.named([...row.path, key], words.key[key] || key, row.name, {
+        kind, isOptional: way.offered.includes(key), placeholder: (words.placeholder[way.name] || {})[key] || words.placeholder[key] || null,
+        size: 7, inputmode: kind === null && !isWide ? "decimal" : null, class: isWide ? "list" : kind === "text" ? null : key === "dof" || key === "k" || key === "p" ? "figure few" : "figure",
+      }, (words.short_of[way.name] || {})[key] || words.short[key]);
     });
-    if (row.form === "text") choice.append(make("option", { value: "" }, words.written));
-    for (const { name } of kinds.distributions) {
-      choice.append(make("option", { value: name }, words.shapes[name] || name));
+    if (PICKED.includes(way.name)) fields.push(make("button", { type: "button", class: "small", onclick: () => this.pickers.pick(way.name, row) }, words.pick[way.name]));
+    if (row.undecided && !way.needed.some(key => ["half_width", "expanded"].includes(key))) {
+      const as = name => make("button", { type: "button", class: "chip", onclick: () => this.#reshape(row, name) }, words.ways[name]);
+      fields.push(make("span", { class: "chips" }, words.plus_minus, " ", as("limits"), as("expanded"), as("expanded-p")));
     }
-    const known = shape && shapeOf(kinds, shape.raw);
-    if (shape && !known) choice.prepend(make("option", { value: shape.raw }, shape.raw));
-    // a value without a name of a distribution is a constant
-    const unnamed = row.cells.some(of => of.key === "value") ? "constant" : "";
-    choice.value = known ? known.name : shape ? shape.raw : unnamed;
+    return fields;
+  }
+
+  #wayOf(name) { return this.kinds.ways.find(of => of.name === name); }
+
+  /** The way of an input: the chosen one while the file can mean it, else that of the file. */
+  #way(row) {
+    const chosen = this.#wayOf(this.chosen.get(row.name)), own = this.#wayOf(row.way);
+    const can = chosen && own && chosen.distribution === own.distribution && chosen.needed.every(key => row.cells.some(cell => cell.key === key));
+    return can ? chosen.name : row.way;
+  }
+
+  #reshape(row, way) {
+    if (way === "") return;
+    this.chosen.set(row.name, way);
+    this.page.reshape(row.path, way, this.kept.get(row.name) || {});
+  }
+
+  /** The choice of the way in which an input is known. */
+  #how(row) {
+    const { words, kinds } = this;
+    const choice = make("select", { "aria-label": words.how_of(row.name), onchange: () => this.#reshape(row, choice.value) });
+    const option = name => make("option", { value: name }, words.ways[name] || words.shapes[name] || name);
+    const others = kinds.ways.map(of => of.name).filter(name => !USUAL.includes(name));
+    const way = this.#way(row);
+    if (row.form === "text") choice.append(make("option", { value: "" }, words.written));
+    else if (!way) {
+      const given = row.cells.find(cell => cell.key === "distribution");
+      choice.append(make("option", { value: "" }, given ? given.raw : ""));
+    }
+    choice.append(make("optgroup", { label: words.how }, ...USUAL.map(option)), make("optgroup", { label: words.other_shapes }, ...others.map(option)));
+    choice.value = way || "";
     choice.dataset.key = at([...row.path, "distribution"]) + "#choice";
     this.fields.set(choice.dataset.key, choice);
     return choice;
@@ -205,100 +242,16 @@ export class Form extends Fields {
     const rest = (found.equations || []).map(of => of.name).filter(name => !reported.includes(name));
     chips("unreported", this.words.report_as, rest, names => this.page.addOutputs(names));
   }
-
-  // the slider
-
-  #slides(found) {
-    const choice = this.page.element("slid");
-    const numbers = [];
-    for (const row of found.inputs || []) {
-      for (const cell of [...row.cells].sort((a, b) => rank(a.key) - rank(b.key))) {
-        if (cell.kind === "number" && (CENTRES.includes(cell.key) || WORDED.includes(cell.key))) {
-          numbers.push({ row, cell, key: at(cell.path) });
-        }
-      }
-    }
-    this.numbers = numbers;
-    const key = JSON.stringify([this.page.language, numbers.map(of => of.key)]);
-    if (choice.dataset.names !== key) {
-      choice.dataset.names = key;
-      choice.replaceChildren(...numbers.map(({ row, cell, key }) =>
-        make("option", { value: key }, this.words.of(this.words.key[cell.key] || cell.key, row.name))));
-    }
-    if (!numbers.some(of => of.key === this.slid)) this.slid = numbers.length ? numbers[0].key : null;
-    if (this.slid !== null && choice.value !== this.slid) choice.value = this.slid;
-    const slide = this.page.element("slide");
-    slide.disabled = this.slid === null;
-    const now = numbers.find(of => of.key === this.slid);
-    this.page.element("slide-value").textContent = now ? now.cell.raw : "";
-    if (now && !this.isSliding) this.#range(now);
-  }
-
-  /** The range that the slider covers: about an estimate five standard uncertainties, of a width three times it. */
-  #range({ row, cell }) {
-    const value = Number(cell.raw);
-    const isWidth = WORDED.includes(cell.key) && !["lower", "upper"].includes(cell.key);
-    const u = row.standard_uncertainty || Math.abs(value) * 0.02 || 1;
-    const [low, high] = isWidth ? [0, 3 * Math.abs(value) || 1] : [value - 5 * u, value + 5 * u];
-    const step = 10 ** Math.floor(Math.log10((high - low) / 200));
-    this.scale = { low, step, digits: Math.min(12, Math.max(0, -Math.floor(Math.log10(step)))) };
-    const slide = this.page.element("slide");
-    slide.min = 0;
-    slide.max = Math.round((high - low) / step);
-    slide.value = Math.round((value - low) / step);
-    slide.setAttribute("aria-valuetext", cell.raw);
-  }
-
-  /** The slider takes hold of a field. */
-  focused(path) {
-    const key = at(path);
-    if ((this.numbers || []).some(of => of.key === key)) this.choose(key);
-  }
-
-  choose(key) {
-    this.slid = key;
-    this.isSliding = false;
-    this.page.element("slid").value = key;
-    const now = this.numbers.find(of => of.key === key);
-    if (now) {
-      this.#range(now);
-      this.page.element("slide-value").textContent = now.cell.raw;
-    }
-  }
-
-  slide(isDone) {
-    this.isSliding = !isDone;
-    const now = (this.numbers || []).find(of => of.key === this.slid);
-    if (!now || !this.scale) return;
-    const slide = this.page.element("slide");
-    const { low, step, digits } = this.scale;
-    // whole steps from a rounded beginning, so that typed numbers stay short
-    const value = (Math.round(low / step) + Number(slide.value)) * step;
-    const typed = String(Number(value.toFixed(digits)));
-    slide.setAttribute("aria-valuetext", typed);
-    this.page.element("slide-value").textContent = typed;
-    if (isNumber(typed)) this.page.edit([{ path: now.cell.path, typed }], `slide:${this.slid}`);
-  }
 }
 
 /** What the fields of a row depend on, but not what stands in them. */
 function signature(row) {
-  const isExtra = cell => ["dof", "about", "tolerance"].includes(cell.key) || cell.path.length > 3 || cell.path[0] === "outputs";
-  return [row.name, row.form, row.cells.filter(cell => !isExtra(cell)).map(cell =>
+  const isExtra = cell => ["about", "unit", "tolerance"].includes(cell.key) || cell.path.length > 3 || cell.path[0] === "outputs";
+  return [row.name, row.form, row.undecided, row.cells.filter(cell => !isExtra(cell)).map(cell =>
     [cell.key, ["list", "other"].includes(cell.kind) ? cell.kind : "", cell.key === "distribution" ? cell.raw : ""])];
 }
 
 function kindOf(cell) {
   if (cell.kind === "list" || ["values", "probabilities"].includes(cell.key) && cell.kind !== "number") return "list";
   return ["file", "column", "id", "output", "unit", "about", "ref_type"].includes(cell.key) ? "text" : null;
-}
-
-function shapeOf(kinds, name) {
-  return kinds.distributions.find(of => of.name === name || of.aliases.includes(name));
-}
-
-function rank(key) {
-  const order = ["mean", "value", "mode", "count", "lower", "upper", "std", "half_width", "semi_range", "scale", "expanded", "k", "p", "values"];
-  const place = order.indexOf(key);
-  return place < 0 ? 50 : place;
 }

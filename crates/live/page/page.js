@@ -8,6 +8,7 @@ import { Equations } from "./equations.js";
 import { Files } from "./files.js";
 import { Form } from "./form.js";
 import { Mistakes } from "./mistakes.js";
+import { fillPrint } from "./print.js";
 import { at, make, put } from "./parts.js";
 import { Result } from "./result.js";
 import { connect } from "./transport.js";
@@ -62,6 +63,7 @@ class Page {
     this.row = 0;
     this.force = true;
     this.source.text = this.document.text;
+    this.form.clear();
     this.result.clear();
     this.show("form");
     this.ask();
@@ -88,17 +90,29 @@ class Page {
   #request() {
     const narrow = matchMedia("(max-width: 40rem)").matches;
     const { text, path } = this.document;
-    return { text, path, name: path || this.named || "", narrow, output: this.chosen, row: this.row, lang: this.language, at: performance.now() };
+    return { text, path, name: path || this.named || "", narrow, output: this.chosen, row: this.row, lang: this.language, stated: this.result.stated, at: performance.now() };
+  }
+
+  /** The text that a change is made to: what is typed into one field replaces what was typed there before. */
+  #base(kind) {
+    const { typing, document: { text } } = this;
+    return typing && typing.kind === kind && typing.text === text ? typing.base : text;
+  }
+
+  #typedFrom(base, kind) {
+    this.typing = kind !== null && kind.startsWith("typed:") ? { kind, base, text: this.document.text } : null;
   }
 
   /** A change whose answer comes with it. */
   async #changeAndAnswer(edits, kind) {
-    const request = this.#request();
+    const { text } = this.document, base = this.#base(kind);
+    const request = { ...this.#request(), text: base };
     const found = await this.answers.edit(request, edits);
-    if (this.document.text !== request.text) return false;
+    if (this.document.text !== text) return false;
     this.isGiven = true;
     this.document.set(found.text, kind);
     this.isGiven = false;
+    this.#typedFrom(base, kind);
     this.answers.given({ ...request, text: found.text }, found);
     return true;
   }
@@ -121,11 +135,13 @@ class Page {
           if (!await this.#changeAndAnswer(edits, kind)) this.queue.unshift({ edits, kind });
           continue;
         }
-        const text = this.document.text;
-        const made = await this.program.call(call || "edit", { text, edits, ...request });
+        const { text } = this.document, base = this.#base(kind);
+        const made = await this.program.call(call || "edit", { text: base, edits, ...request });
         // somebody may have typed into the text meanwhile; that is not lost
-        if (this.document.text === text) this.document.set(made.text, kind);
-        else this.queue.unshift({ call, edits, request, kind });
+        if (this.document.text === text) {
+          this.document.set(made.text, kind);
+          this.#typedFrom(base, kind);
+        } else this.queue.unshift({ call, edits, request, kind });
       } catch (error) {
         this.unanswered(error);
       }
@@ -148,9 +164,9 @@ class Page {
     this.document.redo();
   }
 
-  reshape(path, distribution) {
-    if (distribution === "") return;
-    this.queue.push({ call: "reshape", request: { path, distribution }, kind: null });
+  /** Another way in which an input is known; `kept` is what was typed for it before. */
+  reshape(path, way, kept) {
+    this.queue.push({ call: "reshape", request: { path, way, kept }, kind: null });
     this.#work();
   }
 
@@ -170,13 +186,14 @@ class Page {
   }
 
   addInputs(names) {
-    const value = { unit: "1", distribution: "normal", mean: null, std: null };
+    // the unit follows from what is typed
+    const value = { distribution: "normal", mean: null, std: null };
     this.edit(names.map(name => ({ path: ["inputs", name], value })));
     this.#focusSoon(at(["inputs", names[0], "mean"]));
   }
 
   addOutputs(names) {
-    this.edit(names.map(name => ({ path: ["outputs", name], value: { unit: "1" } })));
+    this.edit(names.map(name => ({ path: ["outputs", name], value: {} })));
     this.#focusSoon(at(["outputs", names[0], "unit"]));
   }
 
@@ -199,6 +216,7 @@ class Page {
   #lost(isLost) {
     if (isLost === this.isLost) return;
     this.isLost = isLost;
+    this.element("lost").hidden = !isLost;
     this.files.state();
     this.result.age();
     if (!isLost) this.ask();
@@ -244,9 +262,12 @@ class Page {
   /** The forms of the open file. */
   get shownForms() { return this.forms[this.kind] || []; }
 
+  /** Whether the file is shown as text. */
+  get isText() { return this.view === "text" || this.shownForms.length === 0; }
+
   show(view) {
     this.view = view;
-    const isText = view === "text" || this.shownForms.length === 0;
+    const { isText } = this;
     this.element("view-form").setAttribute("aria-pressed", !isText);
     this.element("view-text").setAttribute("aria-pressed", isText);
     for (const form of Object.values(this.forms).flat()) form.element.hidden = isText || !this.shownForms.includes(form);
@@ -286,11 +307,12 @@ class Page {
     on("rows", "change", event => toRow(Number(event.target.value)));
     on("row-before", "click", () => toRow(this.row - 1));
     on("row-after", "click", () => toRow(this.row + 1));
-    on("slid", "change", event => this.form.choose(event.target.value));
-    on("slide", "input", () => this.form.slide(false));
-    on("slide", "change", () => this.form.slide(true));
-    on("view-form", "click", () => this.show("form"));
-    on("view-text", "click", () => this.show("text"));
+    const toView = view => {
+      this.show(view);
+      if (this.found) this.mistakes.show(this.found, { text: this.document.text });
+    };
+    on("view-form", "click", () => toView("form"));
+    on("view-text", "click", () => toView("text"));
     on("undo", "click", () => this.undo());
     on("redo", "click", () => this.redo());
     on("save", "click", () => this.files.save());
@@ -301,6 +323,26 @@ class Page {
     this.element("verify").hidden = this.program.hasFolder;
     on("verify", "click", () => this.files.verifyDialog());
     on("import", "click", () => this.files.pick(".csv,.xlsx"));
+    on("copy", "click", async () => {
+      try {
+        await navigator.clipboard.writeText(this.document.text);
+        this.element("copied").textContent = this.words.copied;
+      } catch {
+        // without the permission the text is at least there to be marked
+        this.show("text");
+        this.source.area.select();
+      }
+    });
+    on("bar", "click", () => this.element("answer-title").scrollIntoView());
+    window.addEventListener("beforeprint", () => this.found && fillPrint(this));
+    // what sticks to the edges of the window takes its place from them
+    const measure = (name, of) => new ResizeObserver(() => {
+      const isStuck = ["sticky", "fixed"].includes(getComputedStyle(of).position);
+      document.documentElement.style.setProperty(name, `${isStuck ? of.offsetHeight : 0}px`);
+    }).observe(of);
+    measure("--head", document.querySelector(".bar"));
+    measure("--foot", this.element("bar"));
+    this.result.watch();
     on("language", "change", event => {
       this.language = event.target.value;
       this.words = this.language === "de" ? de : en;

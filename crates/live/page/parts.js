@@ -36,3 +36,12 @@ export const at = path => path.join("\u0001");
 
 /** Whether a text is a number. */
 export const isNumber = text => text.trim() !== "" && Number.isFinite(Number(text));
+
+/** A whole number in groups of three digits. */
+export const grouped = number => String(number).replace(/\B(?=(\d{3})+$)/g, "\u202f");
+
+/** A number as print has it: a true minus, and a power of ten instead of `e-7`. */
+export function printed(text) {
+  const raised = digits => digits.replace(/^\+?0*/, "").replace(/[-0-9]/g, of => "⁻⁰¹²³⁴⁵⁶⁷⁸⁹"["-0123456789".indexOf(of)]);
+  return text.replace(/e([-+]?\d+)$/i, (_, power) => `\u2009×\u200910${raised(power)}`).replace(/^-/, "\u2212");
+}

@@ -1,6 +1,6 @@
 // The result of a model: headline, budget, figures; of other files their page.
 
-import { make, put, unit } from "./parts.js";
+import { grouped, make, printed, put, unit } from "./parts.js";
 
 const SPEAK = 900;
 
@@ -16,17 +16,39 @@ export class Result {
   clear() {
     this.hasResults = false;
     this.reported = null;
+    // what the last full answer stated
+    this.stated = null;
     this.element("box-audit").hidden = true;
     this.element("results").hidden = true;
+    this.#bar();
   }
 
-  /** What is no answer to the text as it stands is old as a whole, and says why. */
+  /** What is no answer to the text as it stands is grey as a whole, and says what it belongs to. */
   age() {
-    const { words } = this;
-    const why = this.page.isLost ? words.old_lost : this.page.isUnanswered ? words.old_failed : this.isBefore ? words.stale : null;
+    const { words, page } = this;
+    const why = page.isLost ? words.old_lost : page.isUnanswered ? words.old_failed : this.isBefore ? words.stale : null;
     this.element("results").classList.toggle("stale", why !== null);
-    if (why !== null) this.element("progress").textContent = this.hasResults ? why : "";
-    if (this.page.isLost || this.page.isUnanswered) this.element("report").classList.add("stale");
+    this.element("bar").classList.toggle("stale", why !== null);
+    const stale = this.element("stale");
+    stale.hidden = why === null || !this.hasResults;
+    if (stale.textContent !== (why || "")) stale.textContent = why || "";
+    if (page.isLost || page.isUnanswered) this.element("report").classList.add("stale");
+    this.#bar();
+  }
+
+  /** The bar with the answer, while the headline is out of sight. */
+  #bar() {
+    const hasValue = this.hasResults && this.element("headline").childElementCount > 0;
+    this.element("bar").hidden = !hasValue || this.isInSight || this.element("results").hidden;
+    document.body.classList.toggle("has-bar", !this.element("bar").hidden);
+  }
+
+  /** Watches whether the headline is in sight. */
+  watch() {
+    new IntersectionObserver(entries => {
+      this.isInSight = entries[entries.length - 1].isIntersecting;
+      this.#bar();
+    }).observe(this.element("headline"));
   }
 
   results(found) {
@@ -35,6 +57,7 @@ export class Result {
     const has = found.results !== undefined;
     const results = this.element("results");
     this.isBefore = !has;
+    if (has && found.whole && found.results[0]) this.stated = found.results.every(of => of.statement.kind === "interval") ? "monte-carlo" : found.results.every(of => of.statement.kind === "expanded") ? "gum" : null;
     if (!has) {
       this.age();
       this.element("nothing").hidden = this.hasResults;
@@ -70,7 +93,7 @@ export class Result {
       notes.dataset.key = key;
       notes.replaceChildren(...further.map(text => make("li", {}, text)));
     }
-    const trials = String(found.trials).replace(/\B(?=(\d{3})+$)/g, "\u202f");
+    const trials = grouped(found.trials);
     const rest = found.whole ? words.done : found.full ? words.cut : words.refining;
     this.element("progress").textContent = found.trials ? words.trials(trials) + rest : "";
     this.age();
@@ -122,7 +145,7 @@ export class Result {
     const { statement, gum, clause_8: clause, conformity } = of;
     const bare = of.unit === "" || of.unit === "1";
     const percent = words.number(String(Number((100 * found.coverage_probability).toFixed(2))));
-    const number = text => words.number(text);
+    const number = text => words.number(printed(text));
     const value = make("p", { class: "value" });
     const said = [];
     if (statement.kind === "expanded") {
@@ -132,6 +155,7 @@ export class Result {
     } else if (statement.kind === "interval") {
       value.append(make("i", {}, of.name), " = ", number(statement.estimate));
       said.push(`${words.interval} ${words.from_to(number(statement.low), number(statement.high))} (${statement.shortest ? words.shortest : words.symmetric})`, words.coverage(percent));
+      if (statement.uncertainty !== null) said.push(words.standard(number(statement.uncertainty)));
     } else if (statement.kind === "standard") {
       value.append(make("i", {}, of.name), " = ", number(statement.estimate));
       said.push(words.standard(number(statement.uncertainty)));
@@ -144,6 +168,7 @@ export class Result {
     if (place.dataset.key !== key) {
       place.dataset.key = key;
       place.replaceChildren(value, line);
+      this.element("bar-value").replaceChildren(value.cloneNode(true), make("p", { class: "said" }, said[0] || ""));
       clearTimeout(this.speaker);
       this.speaker = setTimeout(() => { this.element("spoken").textContent = `${value.textContent}; ${line.textContent}`; }, SPEAK);
     }
@@ -151,7 +176,7 @@ export class Result {
     if (clause) {
       const text = clause.valid === true ? words.clause_yes : clause.valid === false ? words.clause_no : words.clause_open;
       const look = clause.valid === true ? "yes" : clause.valid === false ? "no" : "open";
-      marks.push(make("span", { class: `badge ${look}` }, text), make("span", { class: "detail" }, words.clause_detail(clause)));
+      marks.push(make("span", { class: `badge ${look}` }, text), make("span", { class: "detail" }, words.clause_detail(...[clause.d_low, clause.d_high, clause.tolerance].map(number))));
     }
     if (conformity) {
       // what rounds to certainty is none
@@ -160,6 +185,9 @@ export class Result {
       marks.push(make("span", { class: `badge ${conformity.conforms ? "yes" : "no"}` }, conformity.conforms ? words.conforms(number(p)) : words.not_conforms(number(p))));
     }
     badges.replaceChildren(...marks);
+    const short = marks.filter(of => of.classList.contains("badge")).map(of => of.cloneNode(true));
+    if (clause) short[0].textContent = clause.valid === true ? words.bar_yes : clause.valid === false ? words.bar_no : words.bar_open;
+    this.element("bar-badges").replaceChildren(...short);
   }
 
   audit(found) {

@@ -8,7 +8,7 @@ use gumption_engine::model::formula::Formula;
 use gumption_engine::propagate::{
     Control, Evaluation, convergence, evaluate, histograms, warnings,
 };
-use gumption_engine::task::{MethodChoice, Task, Trials};
+use gumption_engine::task::{MethodChoice, StatementMethod, Task, Trials};
 use gumption_files::{FileReader, ModelFile, TextKind};
 use gumption_foreign::{ComparisonOptions, read_comparison_text};
 use gumption_report::{EvaluationReport, FigureSize, PageChoice, Provenance, Shown, page_parts};
@@ -20,7 +20,7 @@ use std::path::Path;
 
 use crate::edit::{Edit, edited};
 use crate::tree::{self, path_of};
-use crate::{LiveError, diagnostics, inputs, limited, outputs};
+use crate::{LiveError, diagnostics, inputs, limited, open, outputs};
 use gumption_report::words::Language;
 
 /// Maximum number of trials over all rows, up to which the page refines in the background. The
@@ -55,6 +55,10 @@ pub(crate) struct AnswerRequest {
     /// The row of conditions, counted from 0, for the parts; the first one if it does not exist.
     #[serde(default)]
     row: usize,
+    /// What the last full answer stated of the outputs, `gum` or `monte-carlo`: until this one is full
+    /// it states the same.
+    #[serde(default)]
+    stated: Option<String>,
     /// The language of messages: `de`, else English.
     #[serde(default)]
     lang: Language,
@@ -100,6 +104,13 @@ pub(crate) fn answer(
     if let Some(root) = &root {
         let found = stated(bare, root, file.map(|file| &file.task));
         merge(&mut answer, found);
+        // names without a meaning need no search if there are none
+        let missing = if file.is_some() { Vec::new() } else { missing(root) };
+        if let Some(diagnostics) = answer["diagnostics"].as_array_mut() {
+            let points = open::points(bare, root, &missing, diagnostics);
+            answer["open"] = points;
+        }
+        answer["missing"] = json!(missing);
     }
     if let Some(file) = file {
         match results(file, asked, stop) {
@@ -175,8 +186,6 @@ fn stated(text: &str, root: &Value<'_>, task: Option<&Task>) -> Json {
             "seed": scalar(&["monte_carlo", "seed"]),
             "digits": scalar(&["monte_carlo", "digits"]),
         },
-        // names without a meaning need no search if there are none
-        "missing": if task.is_some() { Vec::new() } else { missing(root) },
     })
 }
 
@@ -231,6 +240,10 @@ fn settle(task: &mut Task, asked: &AnswerRequest) -> bool {
         Trials::Fixed(count) => count.min(few),
         Trials::Adaptive => few,
     };
+    if settings.statement == StatementMethod::Auto {
+        let method = asked.stated.as_deref().and_then(StatementMethod::named);
+        settings.statement = method.unwrap_or(StatementMethod::Auto);
+    }
     // results without noise are computed when typing pauses
     settings.method = settings.method.map(|_| MethodChoice::MonteCarlo);
     let is_whole = settings.trials == Trials::Fixed(count)
@@ -288,7 +301,7 @@ fn results(
         page_parts(&report, &shown, size, PageChoice { output, row }),
         language,
     );
-    let note = |warning| plain(&words::note(warning, language));
+    let note = |warning| plain(&words::note_on_page(warning, language));
     Ok(json!({
         "results": outputs::results(&task, &evaluation, row, &parts),
         "together": parts.together,

@@ -68,5 +68,7 @@ pub(crate) fn audited(
     let Some(found) = found else { return Ok(json!({ "html": null, "stopped": true })) };
     let provenance = Provenance::default();
     let report = AuditReport { task, audit: &found, warnings: &[], provenance: &provenance };
-    Ok(json!({ "html": language::part(fragment(&report), RowNames::OfFile, asked.lang) }))
+    Ok(
+        json!({ "html": language::part(fragment(&report, asked.lang), RowNames::OfFile, asked.lang) }),
+    )
 }

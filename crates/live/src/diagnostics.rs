@@ -1,6 +1,7 @@
 //! Errors for the page to underline.
 
-use gumption_text::Diagnostics;
+use gumption_engine::model::formula::FormulaError;
+use gumption_text::{DiagnosticKind, Diagnostics};
 use jsonc_parser::ast::Value;
 use jsonc_parser::common::Ranged;
 use serde_json::{Value as Json, json};
@@ -34,8 +35,10 @@ pub(crate) fn list(text: &str, found: &Diagnostics) -> Json {
         let [start, end] = [span.start, span.end].map(|byte| place.of(byte));
         json!({
             "severity": "error",
+            "isOfUnits": is_of_units(&diagnostic.kind),
             "message": diagnostic.message(),
             "hint": diagnostic.kind.suggestion(),
+            "unit": unit(&diagnostic.kind),
             "file": (!own).then(|| diagnostic.source.name.clone()),
             "line": line,
             "column": column,
@@ -47,6 +50,28 @@ pub(crate) fn list(text: &str, found: &Diagnostics) -> Json {
     });
     let list: Vec<Json> = list.collect();
     Json::Array(list)
+}
+
+/// Whether another unit of a quantity could take the error away.
+fn is_of_units(kind: &DiagnosticKind) -> bool {
+    match kind {
+        DiagnosticKind::WrongDimension { .. } => true,
+        DiagnosticKind::Formula { error } => matches!(
+            error,
+            FormulaError::MixedDimensions { .. }
+                | FormulaError::ArgumentNotPlain { .. }
+                | FormulaError::ExponentNotPlain { .. }
+        ),
+        _ => false,
+    }
+}
+
+/// A unit that would be right, of a quantity whose unit is wrong.
+fn unit(kind: &DiagnosticKind) -> Option<&str> {
+    match kind {
+        DiagnosticKind::WrongDimension { expected, .. } => Some(expected),
+        _ => None,
+    }
 }
 
 /// The position within a quoted text, in UTF-16 units of its content; `None` if it has escapes, or

@@ -9,6 +9,7 @@ use jsonc_parser::ast::{Array, Object, Value};
 use jsonc_parser::common::Ranged;
 use serde::Deserialize;
 
+use crate::quantity;
 use crate::tree::{self, PathStep};
 
 /// One change.
@@ -54,6 +55,11 @@ impl Edit {
         Self { value: Some(value), ..Self::of(path) }
     }
 
+    /// Sets a value as it is typed.
+    pub(crate) fn typed(path: Vec<PathStep>, typed: &str) -> Self {
+        Self { typed: Some(typed.to_owned()), ..Self::of(path) }
+    }
+
     /// Removes an existing value.
     pub(crate) fn remove(path: Vec<PathStep>) -> Self {
         Self { remove: true, ..Self::of(path) }
@@ -84,9 +90,17 @@ pub(crate) fn edited(text: &str, edits: &[Edit]) -> Result<String, String> {
     let mark = text.strip_suffix(bare).unwrap_or("");
     let mut now = bare.to_owned();
     for edit in edits {
-        now = one(&now, edit)?;
+        now = match edit.typed.as_deref().and_then(|typed| meant(&now, edit, typed)) {
+            Some(more) => more.iter().try_fold(now, |now, edit| one(&now, edit))?,
+            None => one(&now, edit)?,
+        };
     }
     Ok(mark.to_owned() + &now)
+}
+
+/// The changes that a typed quantity means.
+fn meant(text: &str, edit: &Edit, typed: &str) -> Option<Vec<Edit>> {
+    quantity::taken(text, &tree::parse(text).ok()?, &edit.path, typed)
 }
 
 fn one(text: &str, edit: &Edit) -> Result<String, String> {

@@ -7,7 +7,9 @@ use gumption_report::{input_picture, plain};
 use jsonc_parser::ast::{Object, Value};
 use serde_json::{Value as Json, json};
 
+use crate::quantity;
 use crate::tree::{self, PathStep, path_of, raw};
+use crate::ways::{self, CENTRES};
 
 /// Maximum number of rows of a table.
 const MOST: usize = 500;
@@ -69,7 +71,11 @@ fn row(text: &str, name: &str, value: &Value<'_>, path: &[PathStep], task: Optio
             } else {
                 "object"
             };
-            json!({ "form": form, "cells": cells(text, object, path) })
+            let way = ways::way_of(text, object);
+            let typed = CENTRES.into_iter().find_map(|key| tree::member(object, key));
+            let undecided = typed.is_some_and(|of| quantity::is_undecided(&raw(text, &of.value)));
+            let cells = cells(text, object, path);
+            json!({ "form": form, "way": way, "undecided": undecided, "cells": cells })
         }
         other => json!({ "form": "text", "text": raw(text, other), "cells": [] }),
     };

@@ -3,20 +3,17 @@
 use gumption_files::schema;
 use serde_json::{Value as Json, json};
 
-use crate::reshape;
+use crate::ways;
 
-/// Distributions with their keys and those that a new one gets, and units.
+/// Distributions with their keys, the ways in which inputs are known, and units.
 pub(crate) fn all() -> Json {
     let distributions: Vec<Json> = schema::distributions()
         .iter()
-        .map(|of| {
-            let needed: Vec<&str> = reshape::needed(of.name).iter().map(|(key, _)| *key).collect();
-            json!({ "name": of.name, "aliases": of.aliases, "keys": of.keys, "needed": needed })
-        })
+        .map(|of| json!({ "name": of.name, "aliases": of.aliases, "keys": of.keys }))
         .collect();
     let mut units: Vec<&str> = COMPOSED.to_vec();
     units.extend(gumption_units::symbols().map(gumption_units::Symbol::name));
-    json!({ "distributions": distributions, "units": units, "version": env!("CARGO_PKG_VERSION") })
+    json!({ "distributions": distributions, "ways": ways::listed(), "units": units, "version": env!("CARGO_PKG_VERSION") })
 }
 
 /// Units with prefixes and composed units that are offered besides the symbols; any other can be

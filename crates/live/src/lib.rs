@@ -16,12 +16,16 @@ mod import;
 mod inputs;
 mod kinds;
 mod language;
+mod named;
+mod open;
 mod outputs;
 pub mod page;
+mod quantity;
 mod reshape;
 #[cfg(test)]
 mod tests;
 mod tree;
+mod ways;
 
 use std::fmt;
 use std::sync::Arc;
@@ -87,10 +91,11 @@ impl<'a> Live<'a> {
     /// | `answer` | `text`, `name`, `edits`, `trials`, `full`, `narrow`, `output`, `row`, `lang` | errors; or inputs, outputs, results, parts of the page |
     /// | `audit` | `text`, `name`, `lang` | `html`: what the Type B assumptions decide |
     /// | `edit` | `text`, `edits` | `text` |
-    /// | `reshape` | `text`, `path`, `distribution` | `text` with another distribution of an input |
+    /// | `reshape` | `text`, `path`, `way`, `kept` | `text` with another way in which an input is known |
     /// | `new` | `example`, `template` or nothing | `text` |
     /// | `examples` | | lists of names with titles |
-    /// | `kinds` | | distributions with their keys, units |
+    /// | `kinds` | | distributions with their keys, ways in which inputs are known, units |
+    /// | `contents` | `file` | `columns`, `quantities` or `outputs` of a file that an input can name |
     /// | `import` | `name`, `base64` | `text`, `notes` |
     ///
     /// # Errors
@@ -115,6 +120,7 @@ impl<'a> Live<'a> {
             "new" => examples::new(self, &asked(request)?)?,
             "examples" => examples::list(self),
             "kinds" => kinds::all(),
+            "contents" => named::contents(files, folder, &asked(request)?)?,
             "import" => import::imported(&asked(request)?)?,
             other => return Err(LiveError::Unknown(other.to_owned())),
         };

@@ -5,6 +5,7 @@ use gumption_engine::model::Output;
 use gumption_engine::propagate::gum::Dof;
 use gumption_engine::propagate::{Evaluation, OutputEvaluation};
 use gumption_engine::task::{Settings, Task};
+use gumption_report::number::with_uncertainty;
 use gumption_report::{OutputParts, PageParts, ResultStatement, plain};
 use serde_json::{Value as Json, json};
 
@@ -32,6 +33,7 @@ fn result(
         }
         ResultStatement::Interval { estimate, low, high, shortest } => json!({
             "kind": "interval", "estimate": estimate, "low": low, "high": high, "shortest": shortest,
+            "uncertainty": drawn_uncertainty(settings, found),
         }),
         ResultStatement::Standard { estimate, uncertainty } => {
             json!({ "kind": "standard", "estimate": estimate, "uncertainty": uncertainty })
@@ -76,4 +78,11 @@ fn result(
             "distribution": parts.distribution,
         },
     })
+}
+
+/// The standard uncertainty of the trials, as a text; `None` where their distribution has none.
+fn drawn_uncertainty(settings: &Settings, found: &OutputEvaluation) -> Option<String> {
+    let figures = found.monte_carlo.as_ref()?;
+    let u = figures.standard_uncertainty?;
+    Some(with_uncertainty(figures.median, u, settings.digits_on_pages()).1)
 }

@@ -1,15 +1,17 @@
-//! Changes the distribution of an input, and keeps typed values that have a meaning there.
+//! Changes the way in which an input is known, and keeps typed values that have a meaning there.
 
+use std::collections::HashMap;
 use std::path::Path;
 
-use gumption_engine::number::Shortest;
 use gumption_files::{FileReader, schema};
+use gumption_text::value_text::with_plus_minus;
 use jsonc_parser::ast::Value;
 use serde::Deserialize;
 use serde_json::{Value as Json, json};
 
 use crate::edit::{self, Edit};
 use crate::tree::{self, PathStep};
+use crate::ways::{self, CENTRES, Role, WIDTHS, Way};
 use crate::{LiveError, inputs, limited};
 
 /// A request of the call `reshape`.
@@ -18,95 +20,42 @@ pub(crate) struct ReshapeRequest {
     text: String,
     /// The input.
     path: Vec<PathStep>,
-    distribution: String,
+    /// A way of `kinds`, or a distribution.
+    way: String,
+    /// What was typed into fields of this input before, by key.
+    #[serde(default)]
+    kept: HashMap<String, String>,
 }
 
-/// The meaning of a key of a distribution.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub(crate) enum Role {
-    /// Where it lies.
-    Centre,
-    /// Its width: whatever the parameter, the typed number is kept.
-    Width,
-    /// Its limits.
-    Lower,
-    Upper,
-    /// A share of the width.
-    Share(f64),
-    /// A number to begin with.
-    Number(f64),
-    /// A text to be filled in.
-    Text,
-    /// Numbers to be filled in.
-    List,
+/// Keys that say how an input is known; the others of a distribution say something beside it.
+const OWN: [&str; 14] = [
+    "k",
+    "p",
+    "lower",
+    "upper",
+    "values",
+    "file",
+    "column",
+    "s",
+    "n",
+    "id",
+    "ref_type",
+    "output",
+    "beta",
+    "inexactness",
+];
+
+/// Whether a key goes with a distribution, so that another one does not need it.
+pub(crate) fn is_of_distribution(key: &str) -> bool {
+    schema::distributions().iter().any(|of| of.keys.contains(&key))
 }
 
-impl Role {
-    /// The initial value of a key, from the location and the width of the input.
-    fn value(self, centre: Option<f64>, width: Option<f64>) -> Json {
-        let both = centre.zip(width);
-        let figure = match self {
-            Self::Text => return json!(""),
-            Self::List => return json!([]),
-            Self::Centre => centre,
-            Self::Width => width,
-            Self::Lower => both.map(|(centre, width)| centre - width),
-            Self::Upper => both.map(|(centre, width)| centre + width),
-            Self::Share(share) => width.map(|width| share * width),
-            Self::Number(value) => Some(value),
-        };
-        figure.map_or(Json::Null, plain_number)
-    }
-}
-
-/// The keys that a new distribution gets.
-pub(crate) fn needed(name: &str) -> &'static [(&'static str, Role)] {
-    use Role::{Centre, List, Lower, Number, Share, Text, Upper, Width};
-    match name {
-        "constant" => &[("value", Centre)],
-        "normal" | "lognormal" => &[("mean", Centre), ("std", Width)],
-        "rectangular" | "triangular" | "arcsine" => &[("mean", Centre), ("half_width", Width)],
-        "trapezoidal" => &[("mean", Centre), ("half_width", Width), ("beta", Number(0.5))],
-        "curvilinear-trapezoid" => {
-            &[("lower", Lower), ("upper", Upper), ("inexactness", Share(0.1))]
-        }
-        "t" => &[("mean", Centre), ("scale", Width), ("dof", Number(9.0))],
-        "readings" | "samples" => &[("values", List)],
-        "exponential" => &[("mean", Centre)],
-        "gamma" => &[("shape", Number(2.0)), ("rate", Number(1.0))],
-        "beta" => &[("alpha", Number(2.0)), ("beta", Number(2.0))],
-        "log-uniform" => &[("lower", Lower), ("upper", Upper)],
-        "poisson-count" => &[("count", Centre)],
-        "weibull" | "pareto" => &[("shape", Number(3.0)), ("scale", Centre)],
-        "gumbel" => &[("location", Centre), ("scale", Width)],
-        "chi-squared" => &[("dof", Number(9.0))],
-        "binomial" => &[("trials", Number(100.0)), ("probability", Number(0.5))],
-        "hypergeometric" => {
-            &[("population", Number(100.0)), ("marked", Number(50.0)), ("draws", Number(10.0))]
-        }
-        "split-normal" => &[("mode", Centre), ("std_low", Width), ("std_high", Width)],
-        "quantiles" => &[("probabilities", List), ("values", List)],
-        "dcc" => &[("file", Text), ("id", Text)],
-        "result" => &[("file", Text), ("output", Text)],
-        _ => &[],
-    }
-}
-
-/// Keys for the location and the width of a distribution.
-const CENTRES: [&str; 4] = ["mean", "value", "mode", "count"];
-const WIDTHS: [&str; 6] = ["std", "half_width", "semi_range", "scale", "expanded", "std_low"];
-
-/// The text with another distribution of an input.
+/// The text with another way in which an input is known.
 pub(crate) fn reshaped(files: FileReader<'_>, asked: &ReshapeRequest) -> Result<Json, LiveError> {
     let text = limited(&asked.text)?;
     let bare = text.strip_prefix('\u{feff}').unwrap_or(text);
-    let shapes = schema::distributions();
-    let known = |name: &str| shapes.iter().find(|of| of.name == name || of.aliases.contains(&name));
-    let Some(shape) = known(&asked.distribution) else {
-        return Err(LiveError::Request(format!(
-            "there is no distribution `{}`",
-            asked.distribution
-        )));
+    let Some(way) = ways::way(&asked.way) else {
+        return Err(LiveError::Request(format!("there is no distribution `{}`", asked.way)));
     };
     let fault = |why: String| LiveError::Request(why);
     let root = tree::parse(bare).map_err(fault)?;
@@ -114,23 +63,36 @@ pub(crate) fn reshaped(files: FileReader<'_>, asked: &ReshapeRequest) -> Result<
         return Err(LiveError::Request("there is no such input".to_owned()));
     };
     let Value::Object(object) = input else {
-        let made = written_out(files, asked, text, shape.name)?;
+        let made = written_out(files, asked, text, way)?;
         return Ok(json!({ "text": made }));
     };
     let value = |key: &str| tree::member(object, key).map(|of| tree::raw(bare, &of.value));
     let has = |key: &str| tree::member(object, key).is_some();
-    let number = |key: &str| value(key).and_then(|text| text.parse::<f64>().ok());
+    let number = |key: &str| {
+        let typed = value(key).or_else(|| asked.kept.get(key).cloned());
+        typed.and_then(|text| text.parse::<f64>().ok())
+    };
     let limits = number("lower").zip(number("upper"));
     let step = |key: &str| {
         let mut path = asked.path.clone();
         path.push(PathStep::Key(key.to_owned()));
         path
     };
-    let mut edits = vec![Edit::set(step("distribution"), json!(shape.name))];
+    let shapes = schema::distributions();
+    let keys_of = |name: &str| {
+        let of = shapes.iter().find(|of| of.name == name || of.aliases.contains(&name));
+        of.map_or(&[][..], |of| of.keys)
+    };
+    let keys = keys_of(way.distribution);
+    let mut edits = vec![Edit::set(step("distribution"), json!(way.distribution))];
     // limits are kept if the new distribution has them too
-    let keeps_limits = has("lower") && has("upper") && shape.keys.contains(&"lower");
+    let asks_width = ways::WAYS.iter().any(|own| own.name == way.name);
+    let keeps_limits = !asks_width && has("lower") && has("upper") && keys.contains(&"lower");
     let mut taken: Vec<String> = Vec::new();
-    for (key, role) in needed(shape.name) {
+    if keeps_limits {
+        taken.extend(["lower", "upper"].map(str::to_owned));
+    }
+    for (key, role) in way.needed {
         let replaced = keeps_limits && matches!(role, Role::Centre | Role::Width);
         if has(key) || replaced {
             taken.push((*key).to_owned());
@@ -146,29 +108,34 @@ pub(crate) fn reshaped(files: FileReader<'_>, asked: &ReshapeRequest) -> Result<
             edits.push(Edit::rename(step(old), key));
             continue;
         }
+        if let Some(before) = asked.kept.get(*key) {
+            edits.push(Edit::typed(step(key), before));
+            continue;
+        }
         let centre = CENTRES.into_iter().find_map(number).or(limits.map(|(a, b)| 0.5 * (a + b)));
         let width = WIDTHS.into_iter().find_map(number).or(limits.map(|(a, b)| 0.5 * (b - a)));
-        let value = role.value(centre, width);
-        edits.push(Edit::set(step(key), value));
+        edits.push(Edit::set(step(key), role.value(centre, width)));
     }
-    // keys that only the old distribution has are removed; those of readings mean something else there
-    let old = value("distribution").and_then(|name| known(&name));
-    let is_alike = old.is_some_and(|old| (old.name == "readings") == (shape.name == "readings"));
-    for key in old.map_or(&[][..], |old| old.keys) {
-        let stays = is_alike && shape.keys.contains(key) || taken.iter().any(|of| of == key);
-        if has(key) && !stays {
+    // keys of the old distribution go, unless they say something beside it that holds for the new one
+    let old = value("distribution").unwrap_or_default();
+    // the resolution of readings is a width, and that of others the value of a count
+    let is_alike = (old == "readings") == (way.distribution == "readings");
+    let is_own = |key: &str| OWN.contains(&key) || CENTRES.contains(&key) || WIDTHS.contains(&key);
+    for key in keys_of(&old) {
+        let stays = is_alike && keys.contains(key) && !is_own(key);
+        if has(key) && !stays && !taken.iter().any(|of| of == key) {
             edits.push(Edit::remove(step(key)));
         }
     }
+    // `100 ohm ± 0.1 %` is decided by the way
+    let undecided =
+        CENTRES.into_iter().filter_map(value).find(|of| with_plus_minus(of).contains('±'));
+    let centre = way.needed.iter().find(|(_, role)| *role == Role::Centre);
+    if let (Some(typed), Some((key, _))) = (undecided, centre) {
+        edits.push(Edit::typed(step(key), &typed));
+    }
     let made = edit::edited(text, &edits).map_err(fault)?;
     Ok(json!({ "text": made }))
-}
-
-/// A number without the last digits due to rounding.
-fn plain_number(value: f64) -> Json {
-    let text = gumption_engine::decimal::significant(value, 12);
-    let short = text.parse::<f64>().ok().unwrap_or(value);
-    serde_json::from_str(&Shortest(short).to_string()).unwrap_or(Json::Null)
 }
 
 /// An input that was a value in words, as an object with keys.
@@ -176,7 +143,7 @@ fn written_out(
     files: FileReader<'_>,
     asked: &ReshapeRequest,
     text: &str,
-    shape: &str,
+    way: Way,
 ) -> Result<String, LiveError> {
     let name = asked.path.last().map(PathStep::to_string).unwrap_or_default();
     let read = files.model_text("the model", text, Path::new(""), &[]).ok();
@@ -184,10 +151,10 @@ fn written_out(
     let mut input = serde_json::Map::new();
     let unit = known.map_or("1", |(variable, _)| variable.unit.text());
     input.insert("unit".to_owned(), json!(unit));
-    input.insert("distribution".to_owned(), json!(shape));
+    input.insert("distribution".to_owned(), json!(way.distribution));
     let centre = known.map(|(_, of)| of.mean());
     let width = known.map(|(_, of)| of.standard_uncertainty());
-    for (key, role) in needed(shape) {
+    for (key, role) in way.needed {
         let value = role.value(centre, width);
         input.insert((*key).to_owned(), value);
     }

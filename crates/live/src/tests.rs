@@ -261,7 +261,7 @@ fn dropped_files_are_found_by_their_names() {
 fn a_shape_keeps_the_numbers_that_were_typed() {
     let reshaped = |input: &str, shape: &str| {
         let text = format!("{{\"inputs\": {{\"a\": {input}}}}}");
-        let asked = json!({"text": text, "path": ["inputs", "a"], "distribution": shape});
+        let asked = json!({"text": text, "path": ["inputs", "a"], "way": shape});
         let made = call("reshape", &asked)["text"].as_str().unwrap().to_owned();
         let inner = made.strip_prefix("{\"inputs\": {\"a\": ").unwrap();
         inner.strip_suffix("}}").unwrap().to_owned()
@@ -307,8 +307,9 @@ fn a_shape_keeps_the_numbers_that_were_typed() {
 #[test]
 fn every_distribution_can_be_begun() {
     for shape in gumption_files::schema::distributions() {
-        assert!(!crate::reshape::needed(shape.name).is_empty(), "{}", shape.name);
-        for (key, _) in crate::reshape::needed(shape.name) {
+        let way = crate::ways::way(shape.name).unwrap();
+        assert!(!way.needed.is_empty(), "{}", shape.name);
+        for (key, _) in way.needed {
             assert!(shape.keys.contains(key), "{}: {key}", shape.name);
         }
     }
@@ -318,7 +319,7 @@ fn every_distribution_can_be_begun() {
         if ["readings", "samples", "quantiles", "dcc", "result"].contains(&shape.name) {
             continue; // these need what nobody can guess
         }
-        let asked = json!({"text": start, "path": ["inputs", "a"], "distribution": shape.name});
+        let asked = json!({"text": start, "path": ["inputs", "a"], "way": shape.name});
         let made = call("reshape", &asked)["text"].as_str().unwrap().to_owned();
         assert_eq!(answer(&made)["diagnostics"], json!([]), "{made}");
     }

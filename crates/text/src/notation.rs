@@ -266,6 +266,27 @@ pub fn stated_in(text: &str, unit: &str) -> Option<String> {
     states_uncertainty(&whole).then_some(whole)
 }
 
+/// The keys of the input that a quantity in words stands for, and their values as they are written:
+/// `5.0112(23) V` is unit V, distribution normal, mean 5.0112, std 0.0023, and `100 ohm` is unit ohm,
+/// distribution constant, value 100. A quantity without a unit gives none. `None` for any other text.
+pub fn written_out(text: &str) -> Option<Vec<(String, String)>> {
+    let (unit, stated) = stated(text).ok()?;
+    let members = members(&(0..0), Some(unit), stated);
+    // `5.0112(23)` has the digits 23e-4
+    let plain = |number: String| match number.parse::<f64>() {
+        Ok(value) if number.contains('e') && !text.contains(['e', 'E']) => {
+            Shortest(value).to_string()
+        }
+        _ => number,
+    };
+    let written = members.into_iter().filter_map(|member| match member.value.value {
+        Json::Text(value) => Some((member.key, value)),
+        Json::Number(value) => Some((member.key, plain(value))),
+        _ => None,
+    });
+    Some(written.collect())
+}
+
 /// Parses a text into its unit (empty without one) and its values.
 fn stated(text: &str) -> Result<(String, Stated), String> {
     let text = with_plus_minus(&text.trim().replace('−', "-"));
@@ -677,6 +698,20 @@ mod tests {
             let error = stated(text).unwrap_err();
             assert!(error.contains("a second uncertainty in parentheses"), "{text}: {error}");
         }
+    }
+
+    #[test]
+    fn a_quantity_in_words_is_written_out() {
+        let keys = |text: &str| {
+            let members = written_out(text).unwrap_or_default();
+            members.iter().map(|(key, value)| format!("{key} {value}")).collect::<Vec<_>>()
+        };
+        let normal = ["unit V", "distribution normal", "mean 5.0112", "std 0.0023"];
+        assert_eq!(keys("5.0112(23) V"), normal);
+        let expanded = ["unit ohm", "distribution normal", "mean 100.02", "expanded 0.04", "k 2"];
+        assert_eq!(keys("100.02 ohm ± 0.04 ohm (k=2)"), expanded);
+        assert_eq!(keys("1.50"), ["distribution constant", "value 1.50"]);
+        assert_eq!(keys("a + b"), [""; 0]);
     }
 
     fn read(text: &str) -> (String, Stated) {

@@ -5,9 +5,8 @@ use super::{Shown, document, results};
 use crate::EvaluationReport;
 use crate::document::{Document, fragment};
 use crate::html::FigureSize;
-use crate::printed::{Notation, in_print};
+use crate::printed::in_print;
 use crate::table::{conditions_text, title_text};
-use crate::words::Language;
 use gumption_engine::distribution::Distribution;
 
 /// The parts of a page, each as HTML that needs the style of [`crate::page_style`]. Whatever a file
@@ -59,11 +58,7 @@ pub fn page_parts(
     size: FigureSize,
     choice: PageChoice,
 ) -> PageParts {
-    let notation = match shown.language {
-        Language::English => Notation::Print,
-        Language::German => Notation::PrintWithComma,
-    };
-    in_print(notation, || parts(report, shown, size, choice))
+    in_print(shown.language.notation(), || parts(report, shown, size, choice))
 }
 
 fn parts(

@@ -87,6 +87,22 @@ pub(crate) fn text(text: &str) -> String {
     }
 }
 
+/// A number of a sentence: on pages whole numbers from 10 000 on are in groups of three digits.
+pub(crate) fn number_in_sentence(number: &str) -> String {
+    let is_long = number.len() > 4 && number.bytes().all(|byte| byte.is_ascii_digit());
+    if notation() == Notation::File || !is_long {
+        return figure_text(number);
+    }
+    let mut grouped = String::with_capacity(number.len() + number.len() / 3);
+    for (place, digit) in number.chars().enumerate() {
+        if place > 0 && (number.len() - place) % 3 == 0 {
+            grouped.push('\u{202f}');
+        }
+        grouped.push(digit);
+    }
+    grouped
+}
+
 /// A text in a figure.
 pub(crate) fn figure_text(text: &str) -> String {
     let written = self::text(text);

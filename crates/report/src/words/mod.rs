@@ -16,6 +16,7 @@ use serde_json::Value;
 
 use crate::answer::{list, object};
 use crate::plain;
+use crate::printed::{Notation, in_print, number_in_sentence};
 
 /// A language in which the facts of all rooms have words.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Deserialize)]
@@ -27,6 +28,16 @@ pub enum Language {
     /// German.
     #[serde(rename = "de")]
     German,
+}
+
+impl Language {
+    /// How a page in this language writes numbers and units.
+    pub(crate) fn notation(self) -> Notation {
+        match self {
+            Self::English => Notation::Print,
+            Self::German => Notation::PrintWithComma,
+        }
+    }
 }
 
 /// Keys with their sentences, of one room.
@@ -78,6 +89,11 @@ pub fn note(warning: &Warning, language: Language) -> String {
     within.unwrap_or_default() + &sentence(&warning.fact, language)
 }
 
+/// As [`note`], with numbers as a page in the language has them.
+pub fn note_on_page(warning: &Warning, language: Language) -> String {
+    in_print(language.notation(), || note(warning, language))
+}
+
 /// What warnings say in English, a line each.
 pub(crate) fn lines(warnings: &[Warning]) -> Vec<String> {
     warnings.iter().map(|warning| plain(&note(warning, Language::English))).collect()
@@ -113,7 +129,8 @@ pub(crate) fn listed(warnings: &[Warning]) -> Value {
 
 fn of_argument(argument: &Argument, language: Language) -> String {
     match argument {
-        Argument::Text(text) | Argument::Number(text) => text.clone(),
+        Argument::Text(text) => text.clone(),
+        Argument::Number(text) => number_in_sentence(text),
         Argument::Fact(fact) => sentence(fact, language),
         Argument::List(parts) => {
             let said: Vec<String> = parts.iter().map(|part| of_argument(part, language)).collect();
