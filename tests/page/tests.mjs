@@ -349,6 +349,90 @@ await test("readings are pasted from a spreadsheet", async (page, _, context) =>
   }
 }, POWER);
 
+const EMPTY = { open: "m.json", files: [["tests/data/page-empty.json", "m.json"]] };
+const value = page => text(page, "#headline .value");
+
+await test("an input says how it is known, and takes what is typed", async page => {
+  await page.fill("#equations", "P = V^2/R");
+  await page.locator("#missing").getByText("all of them").click();
+  // nothing is red before it can be wrong
+  await until(page, () => /mean of V/.test(document.getElementById("points").innerText));
+  assert.equal(await page.locator("#mistakes li, [aria-invalid=true], mark").count(), 0);
+  await field(page, "mean of V").click();
+  await page.keyboard.type("5.0112(23) V");
+  await page.keyboard.press("Tab");
+  await until(page, () => document.querySelector('[aria-label="Unit of V"]').value === "V");
+  assert.deepEqual([await field(page, "mean of V").inputValue(), await field(page, "standard uncertainty u of V").inputValue()], ["5.0112", "0.0023"]);
+  // ± is asked about, and the way decides
+  await field(page, "mean of R").click();
+  await page.keyboard.type("100 ohm ± 0.1 %");
+  await page.keyboard.press("Tab");
+  await page.locator("#inputs .chip", { hasText: "± limits" }).click();
+  await until(page, () => (document.querySelector('[aria-label="half-width of R"]') || {}).value === "0.1 %");
+  // the unit of the result is offered
+  await page.locator("#unreported button", { hasText: "P" }).click();
+  await page.locator("#points button", { hasText: "use W" }).click();
+  await until(page, () => document.getElementById("source").value.includes('"P": {"unit": "W"}'));
+  await until(page, () => /0\.2511/.test((document.querySelector("#headline .value") || {}).innerText || ""));
+  // there and back: what was typed is kept
+  for (const way of ["readings", "data sheet", "U and k", "± limits"]) {
+    await field(page, "How R is known").selectOption({ label: way });
+    await until(page, way => document.querySelector('[aria-label="How R is known"]').selectedOptions[0].label === way, way);
+  }
+  assert.deepEqual([await field(page, "mean of R").inputValue(), await field(page, "half-width of R").inputValue()], ["100", "0.1 %"]);
+  await shot(page, "ways");
+  await field(page, "How R is known").selectOption({ label: "data sheet" });
+  await field(page, "half-width of R").fill("0.02 % rdg + 2 counts");
+  await field(page, "resolution of R").fill("0.01");
+  await until(page, () => document.querySelectorAll("#mistakes li").length === 0 && /0\.25/.test(document.getElementById("headline").innerText));
+}, EMPTY);
+
+await test("readings of a table, and another file's result, are picked from lists", async (page, folder) => {
+  await writeFile(join(folder, "day.csv"), "t;V [V]\n1;5,011\n2;5,013\n3;5,012\n4;5,010\n");
+  const saved = execFileSync(process.env.GUMPTION, ["run", join(folder, "power.json"), "--quiet", "--brief", "--save", join(folder, "power.result.json")]);
+  assert(saved.length > 0);
+  await field(page, "How voltage is known").selectOption({ label: "readings" });
+  await page.getByRole("button", { name: "From a table" }).first().click();
+  await page.locator("#dialog .entry", { hasText: "day.csv" }).click();
+  await page.locator("#dialog .entry", { hasText: "V [V]" }).click();
+  await until(page, () => /"file": "day.csv", "column": "V \[V\]"/.test(document.getElementById("source").value));
+  await until(page, () => document.querySelectorAll("#mistakes li").length === 0);
+  await page.fill("#equations", "power = voltage^2/resistance\ny = p/2");
+  await page.locator("#missing").getByText("p", { exact: true }).click();
+  await field(page, "How p is known").selectOption({ label: "result of another file" });
+  await page.getByRole("button", { name: "Choose" }).click();
+  await page.locator("#dialog .entry", { hasText: "power.result.json" }).click();
+  await page.locator("#dialog .entry", { hasText: "power" }).click();
+  await until(page, () => document.querySelector('[aria-label="Unit of p"]').value === "mW");
+  await until(page, () => document.querySelectorAll("#mistakes li").length === 0);
+}, POWER);
+
+await test("sixty inputs: three screens, the answer in sight, and what is old is grey", async page => {
+  await until(page, () => document.querySelector("#headline .value"));
+  const tall = await page.evaluate(() => document.querySelector("table.inputs").offsetHeight);
+  assert(tall <= 3 * 1000, `the inputs are ${tall} px`);
+  await page.evaluate(() => scrollTo(0, 1500));
+  await until(page, () => !document.getElementById("bar").hidden);
+  assert.equal(await text(page, "#bar-value .value"), await value(page));
+  // what sticks below the head is not under it
+  const [head, slider] = await page.evaluate(() => [".bar", ".slider"].map(of => document.querySelector(of).getBoundingClientRect()).map((of, place) => place ? of.top : of.bottom));
+  assert(slider >= head - 1, `${slider} under ${head}`);
+  await field(page, "mean of x40").fill("5 q");
+  await until(page, () => document.getElementById("bar").classList.contains("stale"));
+  assert.match(await text(page, "#stale"), /does not belong to the present input/);
+  assert.match(await text(page, "#mistakes button"), /mean of x40/);
+  await shot(page, "sixty");
+}, { open: "sixty.json", files: [["tests/data/page-sixty.json", "sixty.json"]] });
+
+await test("a printed sheet says what it is of", async page => {
+  await refined(page);
+  await page.pdf({ format: "A4" });
+  const printed = await page.evaluate(() => document.getElementById("print").innerText || document.getElementById("print").textContent);
+  for (const said of ["Power in a resistor", "power.json", "power = voltage^2/resistance", "voltmeter's certificate", "seed: 1"]) {
+    assert(printed.includes(said), `${said} is not in ${printed}`);
+  }
+}, POWER);
+
 /** Sentences that are English, of what a page shows. */
 const english = page => page.evaluate(() => {
   const own = document.getElementById("source").value.toLowerCase();

@@ -302,6 +302,132 @@ fn a_shape_keeps_the_numbers_that_were_typed() {
     );
 }
 
+fn edited(input: &str, key: &str, typed: &str) -> String {
+    let text = format!("{{\"inputs\": {{\"a\": {input}}}}}");
+    let edit = json!({"path": ["inputs", "a", key], "typed": typed});
+    let made =
+        call("edit", &json!({"text": text, "edits": [edit]}))["text"].as_str().unwrap().to_owned();
+    let inner = made.strip_prefix("{\"inputs\": {\"a\": ").unwrap();
+    inner.strip_suffix("}}").unwrap().to_owned()
+}
+
+/// A quantity typed into any field of an input fills all of them; a unit that is decided already is
+/// not replaced by one that goes with a value alone.
+#[test]
+fn a_typed_quantity_fills_the_fields_of_its_input() {
+    let new = "{\"distribution\": \"normal\", \"mean\": null, \"std\": null}";
+    let whole =
+        "{\"distribution\": \"normal\", \"mean\": 5.0112, \"std\": 0.0023, \"unit\": \"V\"}";
+    for key in ["mean", "std", "unit"] {
+        assert_eq!(edited(new, key, "5.0112(23) V"), whole, "{key}");
+    }
+    let with_unit =
+        "{\"distribution\": \"normal\", \"mean\": 100, \"std\": null, \"unit\": \"ohm\"}";
+    assert_eq!(edited(new, "mean", "100 ohm"), with_unit);
+    let volts =
+        "{\"unit\": \"mV\", \"distribution\": \"rectangular\", \"mean\": 1, \"half_width\": 0.1}";
+    assert_eq!(edited(volts, "mean", "5 V"), volts.replace("\"mean\": 1", "\"mean\": \"5 V\""));
+    assert_eq!(
+        edited(volts, "mean", "5.00 V ± 0.1 %"),
+        volts.replace("\"mean\": 1", "\"mean\": \"5.00 V\"").replace("0.1}", "\"0.1 %\"}")
+    );
+    let made = edited(volts, "half_width", "5.02 V ± 0.04 V (k=2)");
+    let keys =
+        ["\"distribution\": \"normal\"", "\"expanded\": 0.04", "\"k\": 2", "\"unit\": \"V\""];
+    assert!(keys.iter().all(|key| made.contains(key)) && !made.contains("half_width"), "{made}");
+    // what is no quantity stays as it is typed
+    assert_eq!(edited(new, "mean", "5 q"), new.replacen("null", "\"5 q\"", 1));
+    assert_eq!(edited(new, "mean", "f + 1"), new.replacen("null", "\"f + 1\"", 1));
+}
+
+/// Changing the way in which an input is known there and back gives what was typed.
+#[test]
+fn a_way_keeps_what_was_typed() {
+    let reshaped = |input: &str, way: &str, kept: &Value| {
+        let text = format!("{{\"inputs\": {{\"a\": {input}}}}}");
+        let asked = json!({"text": text, "path": ["inputs", "a"], "way": way, "kept": kept});
+        let made = call("reshape", &asked)["text"].as_str().unwrap().to_owned();
+        let inner = made.strip_prefix("{\"inputs\": {\"a\": ").unwrap().to_owned();
+        inner.strip_suffix("}}").unwrap().to_owned()
+    };
+    let standard = "{\"unit\": \"V\", \"distribution\": \"normal\", \"mean\": 100, \"std\": 0.05}";
+    let readings = reshaped(standard, "readings", &json!({}));
+    assert_eq!(readings, "{\"unit\": \"V\", \"distribution\": \"readings\", \"values\": []}");
+    let kept = json!({"mean": "100", "std": "0.05"});
+    assert_eq!(
+        reshaped(&readings, "limits", &kept),
+        "{\"unit\": \"V\", \"distribution\": \"rectangular\", \"mean\": 100, \"half_width\": 0.05}"
+    );
+    assert_eq!(
+        reshaped(standard, "expanded", &kept),
+        "{\"unit\": \"V\", \"distribution\": \"normal\", \"mean\": 100, \"expanded\": 0.05, \"k\": 2}"
+    );
+    let expanded = "{\"distribution\": \"normal\", \"mean\": 100, \"expanded\": 0.05, \"k\": 2}";
+    assert_eq!(
+        reshaped(expanded, "standard", &json!({})),
+        "{\"distribution\": \"normal\", \"mean\": 100, \"std\": 0.05}"
+    );
+    assert_eq!(
+        reshaped(expanded, "bounds", &json!({})),
+        "{\"distribution\": \"rectangular\", \"lower\": 99.95, \"upper\": 100.05}"
+    );
+    // what ± means is decided by the way
+    let open = "{\"distribution\": \"normal\", \"mean\": \"100 ohm ± 0.1 %\", \"std\": null}";
+    assert_eq!(
+        reshaped(open, "limits", &json!({})),
+        "{\"distribution\": \"rectangular\", \"mean\": 100, \"half_width\": \"0.1 %\", \"unit\": \"ohm\"}"
+    );
+}
+
+/// A model that is being written lacks things, which is no error; a wrong name is one.
+#[test]
+fn what_is_still_open_is_no_error() {
+    let open = |text: &str| {
+        let found = answer(text);
+        let errors =
+            found["diagnostics"].as_array().unwrap().iter().filter(|of| of["open"] != true);
+        (errors.count(), found["open"].clone(), found["missing"].clone())
+    };
+    let (errors, points, _) = open(r#"{"inputs": {}, "equations": {}, "outputs": {}}"#);
+    assert_eq!((errors, points), (0, json!([{"path": ["equations"]}, {"path": ["outputs"]}])));
+    let (errors, _, missing) =
+        open(r#"{"inputs": {}, "equations": {"P": "V^2/R"}, "outputs": {}}"#);
+    assert_eq!((errors, missing), (0, json!(["V", "R"])));
+    let begun = r#"{"inputs": {"V": {"distribution": "normal", "mean": null, "std": 1},
+        "R": {"unit": "ohm", "distribution": "normal", "mean": 100, "std": 1}},
+        "equations": {"P": "V^2/R"}, "outputs": {"P": {"unit": "mW"}}}"#;
+    let (errors, points, _) = open(begun);
+    assert_eq!(errors, 0);
+    assert_eq!(points[0], json!({"path": ["inputs", "V", "mean"]}));
+    // a unit that is not chosen yet, of an input and of the result
+    let (errors, points, _) = open(&begun.replace("null", "5"));
+    assert_eq!((errors, points), (0, json!([{"path": ["inputs", "V", "unit"]}])));
+    let whole = begun.replace("null", "5").replace("\"V\": {", "\"V\": {\"unit\": \"V\", ");
+    let (errors, points, _) = open(&whole.replace("\"unit\": \"mW\"", ""));
+    let unit = json!([{"path": ["outputs", "P", "unit"], "suggestion": "W"}]);
+    assert_eq!((errors, points), (0, unit));
+    assert_eq!(open(&whole).0, 0);
+    assert_eq!(open(&whole.replace("mW", "mm")).0, 1);
+    assert_eq!(open(&whole.replace("V^2/R", "V^2/Rr")).0, 1);
+}
+
+/// The columns of a table, the outputs of a saved result and the quantities of a certificate.
+#[test]
+fn a_file_that_an_input_can_name_says_what_it_holds() {
+    let table = b"t [s];V [V]\n1;5,01\n2;5,02\n".to_vec();
+    let files = HeldFiles(vec![("day.csv".to_owned(), table), ("no.csv".to_owned(), Vec::new())]);
+    let found = try_call("contents", &json!({"file": "day.csv"}), &files).unwrap();
+    assert_eq!(found, json!({"columns": ["t [s]", "V [V]"]}));
+    for file in ["no.csv", "none.csv"] {
+        let LiveError::Request(why) =
+            try_call("contents", &json!({"file": file}), &files).unwrap_err()
+        else {
+            panic!("another error");
+        };
+        assert!(why.starts_with(&format!("`{file}`: ")), "{why}");
+    }
+}
+
 /// Every distribution that files may name has keys to begin with, and a new input of it, filled in,
 /// is one that can be read.
 #[test]
@@ -334,7 +460,7 @@ fn there_is_something_starting_points() {
     assert_eq!(wrong.to_string(), "there is no example `powr`; did you mean `power`?");
     let empty = call("new", &json!({}));
     assert!(empty["text"].as_str().unwrap().contains("\"inputs\": {}"));
-    assert_eq!(call("kinds", &json!({}))["distributions"][1]["needed"], json!(["mean", "std"]));
+    assert_eq!(call("kinds", &json!({}))["ways"][0]["needed"], json!(["mean", "std"]));
 }
 
 #[test]
