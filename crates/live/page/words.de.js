@@ -57,7 +57,7 @@ export default {
   open_points: "Noch offen:", open_list: { equations: "eine Gleichung", outputs: "ein Ergebnis" }, use_unit: unit => `${unit} verwenden`,
   changed_open: "nicht gespeichert (noch nicht vollständig)",
   ways: {
-    standard: "u (Standardunsicherheit)", expanded: "U und k", "expanded-p": "U und p", limits: "± Grenzen", bounds: "untere und obere Grenze",
+    standard: "u (Standard)", expanded: "U und k", "expanded-p": "U und p", limits: "± Grenzen", bounds: "untere und obere Grenze",
     datasheet: "Datenblatt", readings: "Messreihe", dcc: "Kalibrierschein (DCC)", result: "Ergebnis einer anderen Datei", constant: "exakter Wert",
   },
   short: { mean: "", value: "", std: "u", expanded: "U", k: "k", p: "p", dof: "ν", half_width: "±", lower: "von", upper: "bis", values: "Werte" },

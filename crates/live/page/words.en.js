@@ -57,7 +57,7 @@ export default {
   open_points: "Still open:", open_list: { equations: "an equation", outputs: "a result" }, use_unit: unit => `use ${unit}`,
   changed_open: "not saved (not complete yet)",
   ways: {
-    standard: "u (standard uncertainty)", expanded: "U and k", "expanded-p": "U and p", limits: "± limits", bounds: "lower and upper limit",
+    standard: "u (standard)", expanded: "U and k", "expanded-p": "U and p", limits: "± limits", bounds: "lower and upper limit",
     datasheet: "data sheet", readings: "readings", dcc: "certificate (DCC)", result: "result of another file", constant: "exact value",
   },
   short: { mean: "", value: "", std: "u", expanded: "U", k: "k", p: "p", dof: "ν", half_width: "±", lower: "from", upper: "to", values: "values" },
