@@ -16,7 +16,7 @@ export class Equations {
     const area = this.code.area;
     area.rows = Math.max(3, Math.min(14, this.code.text.split("\n").length + 1));
     area.readOnly = Boolean(found.model);
-    this.element("equations-box").hidden = Boolean(found.model);
+    for (const id of ["equations-box", "equations-hint", "add-input"]) this.element(id).hidden = Boolean(found.model);
   }
 
   /** The lines of the field of equations: where each formula begins, and what is none. */

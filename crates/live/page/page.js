@@ -249,7 +249,7 @@ class Page {
       document.title = `${found.title || request.path || this.words.unnamed} - gumption`;
       const model = this.element("model");
       model.hidden = !found.model;
-      model.replaceChildren(...(found.model ? [`${this.words.model_is} ${found.model}. `, ...(found.statement || []).flatMap(([name, formula]) => [make("code", {}, `${name} = ${formula}`), " "])] : []));
+      model.replaceChildren(...(found.model ? [`${this.words.model_is} ${found.model}`, ...(found.statement || []).map(([name, formula]) => make("code", {}, `${name} = ${formula}`))] : []));
     }
     for (const form of this.shownForms) form.show(found, force);
     this.mistakes.show(found, request);
