@@ -7,9 +7,11 @@
 
 mod answer;
 mod audit;
+mod controls;
 mod diagnostics;
 mod edit;
 mod examples;
+pub mod gallery;
 mod german;
 mod held;
 mod import;
@@ -89,9 +91,9 @@ impl<'a> Live<'a> {
     /// | `edit` | `text`, `edits` | `text` |
     /// | `reshape` | `text`, `path`, `distribution` | `text` with another distribution of an input |
     /// | `new` | `example`, `template` or nothing | `text` |
-    /// | `examples` | | lists of names with titles |
+    /// | `examples` | | `large`, `fields`: starting points with titles and sources by field of work |
     /// | `kinds` | | distributions with their keys, units |
-    /// | `import` | `name`, `base64` | `text`, `notes` |
+    /// | `import` | `name`, `base64`, `options`, `lang` | `sheet`: its cells; `text`, `notes`; or `questions`, `mistakes` |
     ///
     /// # Errors
     /// The call does not exist, or the request does not match it.
@@ -113,7 +115,7 @@ impl<'a> Live<'a> {
             }
             "reshape" => reshape::reshaped(files, &asked(request)?)?,
             "new" => examples::new(self, &asked(request)?)?,
-            "examples" => examples::list(self),
+            "examples" => gallery::list(self),
             "kinds" => kinds::all(),
             "import" => import::imported(&asked(request)?)?,
             other => return Err(LiveError::Unknown(other.to_owned())),
