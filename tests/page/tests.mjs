@@ -277,7 +277,7 @@ await test("recent files, and files of the folder by kind", async page => {
   await page.locator("#recent-files .entry", { hasText: "Power in a resistor" }).click();
   await shown(page);
   assert.equal(await text(page, "#path"), "power.json");
-}, { files: [["models/examples", "."]] });
+}, { files: ["power.json", "certificate.json", "last_year.json", "results.csv"].map(name => [`models/examples/${name}`, name]) });
 
 const paste = async (page, table) => {
   await page.fill("#pasted", table.map(row => row.join("\t")).join("\n"));
@@ -333,6 +333,26 @@ await test("a spreadsheet of a file is asked about, row by row", async page => {
   await page.locator("#use-budget:enabled").waitFor();
   await page.click("#use-budget");
   await shown(page);
+});
+
+await test("a workbook is shown, and one of this program comes back", async (page, folder) => {
+  const choose = async name => {
+    await page.click("#import");
+    const [chooser] = await Promise.all([page.waitForEvent("filechooser"), page.click("#pick-sheet")]);
+    await chooser.setFiles(join(folder, name));
+    await until(page, name => document.getElementById("sheet-file").textContent === name, name);
+  };
+  execFileSync(process.env.GUMPTION, ["import", "--template", join(folder, "empty.xlsx")]);
+  execFileSync(process.env.GUMPTION, ["run", join(root, "models/examples/power.json"), "--format", "xlsx", "--output", join(folder, "power.xlsx"), "--quiet", "--trials", "10000"]);
+  await choose("empty.xlsx");
+  await until(page, () => document.querySelectorAll("#sheet-table tbody tr").length > 0 && document.querySelectorAll("#sheet-questions li").length > 0);
+  await shot(page, "import-workbook", { fullPage: true });
+  assert.doesNotMatch(await text(page, "#sheet-questions"), /--/);
+  await choose("power.xlsx");
+  await page.locator("#use-budget:enabled").waitFor();
+  await page.click("#use-budget");
+  await shown(page);
+  assert.equal(await page.inputValue("#title"), "Power in a resistor");
 });
 
 for (const [name, options] of [["at 390 px", { viewport: { width: 390, height: 844 } }], ["in German, dark", { lang: "de", colorScheme: "dark" }]]) {

@@ -143,8 +143,10 @@ export class Import {
     this.element("sheet-more").textContent = more ? words.sheet_more(more) : "";
   }
 
-  /** Which rows something is about, in words. */
+  /** Which rows something is about, in words; nothing of what the headings leave open. */
   #where([first, last]) {
+    const { heading } = this.answer.sheet || {};
+    if (heading && first <= heading) return "";
     return make("span", { class: "detail" }, first === last ? this.words.sheet_row(first) : this.words.sheet_rows(first, last), " ");
   }
 

@@ -56,7 +56,10 @@ mod tests {
             ),
             (
                 "`--column NAME=N` (NAME is one of unit, U), or `--column ignore=N`",
-                vec![control("column", None, Some("N")), control("column", Some("ignore"), Some("N"))],
+                vec![
+                    control("column", None, Some("N")),
+                    control("column", Some("ignore"), Some("N")),
+                ],
             ),
             ("`--column U=C`, or the unit `mm`", vec![control("column", Some("U"), Some("C"))]),
             ("`--row result=12`", vec![control("row", Some("result"), Some("12"))]),

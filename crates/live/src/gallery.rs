@@ -32,10 +32,8 @@ pub fn fields() -> impl Iterator<Item = (&'static str, Vec<&'static str>)> {
 
 /// All starting points by field, and those that the page shows first.
 pub(crate) fn list(live: &Live<'_>) -> Json {
-    let templates = live
-        .catalogue
-        .iter()
-        .filter_map(|of| Some(entry("template", of.name(), of.template?)));
+    let templates =
+        live.catalogue.iter().filter_map(|of| Some(entry("template", of.name(), of.template?)));
     let examples = live.examples.iter().map(|(name, text)| entry("example", name, text));
     let all: Vec<Json> = templates.chain(examples).collect();
     let of = |name: &str| all.iter().find(|entry| entry["name"] == name).cloned();

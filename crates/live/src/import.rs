@@ -53,7 +53,8 @@ pub(crate) fn imported(asked: &ImportRequest) -> Result<Json, LiveError> {
             let is_mistake = |of: &&Diagnostic| !sentences.contains(&of.message());
             let mistakes = diagnostics.0.iter().filter(is_mistake).take(MOST).map(mistake);
             answer["mistakes"] = json!(mistakes.collect::<Vec<_>>());
-            answer["questions"] = json!(questions.iter().take(MOST).map(question).collect::<Vec<_>>());
+            answer["questions"] =
+                json!(questions.iter().take(MOST).map(question).collect::<Vec<_>>());
         }
     }
     Ok(answer)
