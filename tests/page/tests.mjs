@@ -345,9 +345,14 @@ await test("a workbook is shown, and one of this program comes back", async (pag
   execFileSync(process.env.GUMPTION, ["import", "--template", join(folder, "empty.xlsx")]);
   execFileSync(process.env.GUMPTION, ["run", join(root, "models/examples/power.json"), "--format", "xlsx", "--output", join(folder, "power.xlsx"), "--quiet", "--trials", "10000"]);
   await choose("empty.xlsx");
-  await until(page, () => document.querySelectorAll("#sheet-table tbody tr").length > 0 && document.querySelectorAll("#sheet-questions li").length > 0);
+  await page.locator("#use-budget:enabled").waitFor();
+  assert.equal(await page.inputValue('[aria-label="What row 4 is"]'), "heading");
   await shot(page, "import-workbook", { fullPage: true });
+  // another sheet has no budget
+  await page.selectOption('[aria-label="Sheet"]', { index: 2 });
+  await until(page, () => /no budget is found/.test(document.getElementById("sheet-questions").innerText));
   assert.doesNotMatch(await text(page, "#sheet-questions"), /--/);
+  assert.equal(await page.isDisabled("#use-budget"), true);
   await choose("power.xlsx");
   await page.locator("#use-budget:enabled").waitFor();
   await page.click("#use-budget");

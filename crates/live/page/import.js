@@ -270,7 +270,7 @@ export class Import {
         const label = words.sheet_options[name];
         const say = value => { this.said[name] = value; if (name === "sheet") { this.columns.clear(); this.units.clear(); this.rows.clear(); } };
         const field = typeof choices === "string" ? this.#text(`field ${name}`, label, say)
-          : this.#choice(`field ${name}`, label, [["", words.as_sheet], ...choices.map(value => [value, (words.sheet_values[name] || {})[value] || words.shapes[value] || value])], say);
+          : this.#choice(`field ${name}`, label, [["", name === "sheet" ? words.sheet_of_budget : words.as_sheet], ...choices.map(value => [value, (words.sheet_values[name] || {})[value] || words.shapes[value] || value])], say);
         if (name === "equation") field.placeholder = "y = a/b";
         return [make("span", { class: name === "equation" ? "labelled wide" : "labelled" }, make("span", { class: "key", "aria-hidden": true }, label), field)];
       }));

@@ -55,8 +55,8 @@ class Page {
     this.form.kinds = await this.program.call("kinds", {});
     this.element("units").replaceChildren(...this.form.kinds.units.map(value => make("option", { value })));
     this.program.watch(event => this.files.onDisk(event), isLost => this.#lost(isLost));
-    const { open } = await this.program.ask("files", {});
-    if (open) await this.files.open(open);
+    const listing = this.beginning.listing = await this.program.ask("files", {});
+    if (listing.open) await this.files.open(listing.open);
     else await this.beginning.show();
   }
 

@@ -34,7 +34,8 @@ export class Start {
     back.textContent = this.words.go_on_with(this.page.document.path || this.page.named || this.words.unnamed);
     try {
       this.gallery ||= await this.page.program.call("examples", {});
-      this.#draw();
+      if (this.drawn !== this.page.language) this.#draw();
+      this.#whenIdle();
       this.listing = await this.page.program.ask("files", {});
       this.#folder();
     } catch (error) { this.page.failed(error); }
@@ -59,7 +60,7 @@ export class Start {
       make("summary", {}, this.words.fields[field] || field, " ", make("span", { class: "detail" }, String(entries.length))),
       make("ul", {}, ...entries.map(of => make("li", {}, this.#entry(of.title, of.source, () => this.begin({ [of.kind]: of.name }))))))));
     this.#filter();
-    this.#whenIdle();
+    this.drawn = this.page.language;
   }
 
   /** An entry of a list: what is in files is in their language, which the page does not know. */

@@ -66,7 +66,7 @@ export default {
   pasted_name: "Eingefügtes Budget", use_budget: "Dieses Budget verwenden", sheet_fields: "Zum ganzen Blatt", sheet_table: "Das Blatt",
   sheet_clear: "Nichts ist offen: Dieses Budget kann verwendet werden.", sheet_open: n => n === 1 ? "Eine Angabe fehlt noch" : `${n} Angaben fehlen noch`,
   sheet_more: n => `${n} weitere Zeilen werden gelesen und nicht gezeigt.`, sheet_row: n => `Zeile ${n}:`, sheet_rows: (a, b) => `Zeilen ${a} bis ${b}:`,
-  sheet_readings: "Möglich ist:", as_sheet: "wie auf dem Blatt", by_heading: "nicht gesagt", by_words: "nach ihren Zellen",
+  sheet_readings: "Möglich ist:", as_sheet: "wie auf dem Blatt", sheet_of_budget: "das mit einem Budget", by_heading: "nicht gesagt", by_words: "nach ihren Zellen",
   column_is: (c, n) => `Spalte ${c}: ${n}`, column_what: c => `Sagen, was Spalte ${c} enthält`, column_where: n => `Spalte wählen: ${n}`, column_any: "die Auswahl über einer Spalte",
   column_holds: c => `Was Spalte ${c} enthält`, column_unit: c => `Einheit der Spalte ${c}`, column_unit_of: n => `Einheit der Spalte: ${n}`, column_unit_any: "Einheit der Spalte",
   row_is: (r, n) => `Zeile ${r}: ${n}`, row_where: n => `Zeile wählen: ${n}`, row_holds: r => `Was Zeile ${r} ist`,

@@ -66,7 +66,7 @@ export default {
   pasted_name: "Pasted budget", use_budget: "Use this budget", sheet_fields: "About the sheet as a whole", sheet_table: "The sheet",
   sheet_clear: "Nothing is open: this budget can be used.", sheet_open: n => n === 1 ? "One thing is still to be said" : `${n} things are still to be said`,
   sheet_more: n => `${n} further rows are read and not shown.`, sheet_row: n => `Row ${n}:`, sheet_rows: (a, b) => `Rows ${a} to ${b}:`,
-  sheet_readings: "It can be:", as_sheet: "as on the sheet", by_heading: "not said", by_words: "by its cells",
+  sheet_readings: "It can be:", as_sheet: "as on the sheet", sheet_of_budget: "the one with a budget", by_heading: "not said", by_words: "by its cells",
   column_is: (c, n) => `Column ${c}: ${n}`, column_what: c => `Say what column ${c} holds`, column_where: n => `Choose the column: ${n}`, column_any: "the choice above a column",
   column_holds: c => `What column ${c} holds`, column_unit: c => `Unit of column ${c}`, column_unit_of: n => `Unit of the column: ${n}`, column_unit_any: "Unit of the column",
   row_is: (r, n) => `Row ${r}: ${n}`, row_where: n => `Choose the row: ${n}`, row_holds: r => `What row ${r} is`,
