@@ -184,7 +184,7 @@ export class Import {
     }
     if (option === "column-unit") return name ? words.column_unit_of(column) : words.column_unit_any;
     if (option === "row") return name && value ? words.row_is(value, words.sheet_kinds[name] || name) : words.row_where(words.sheet_kinds[name] || name || "");
-    const label = words.sheet_options[option] || option;
+    const label = words.sheet_options[option] || option || "";
     const said = (words.sheet_values[option] || {})[value] || words.shapes[value] || value;
     return value && option !== "numbers" ? `${label}: ${said}` : label;
   }
