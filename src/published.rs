@@ -11,7 +11,10 @@ macro_rules! cases {
 
 macro_rules! measurements {
     ($($name:literal,)*) => {
-        &[$(($name, include_str!(concat!("../models/examples/published/", $name, ".json"))),)*]
+        &[
+            ("power", include_str!("../models/examples/power.json")),
+            $(($name, include_str!(concat!("../models/examples/published/", $name, ".json"))),)*
+        ]
     };
 }
 
@@ -55,7 +58,7 @@ pub(crate) const EXAMPLES: PublishedExamples = PublishedExamples {
         ("sensitivity-datasheet", include_str!("../models/sensitivity_datasheet.json")),
         ("normalized-error", include_str!("../models/normalized_error.json")),
     ],
-    // those of the folder that need no other file
+    // the README's, and those of the folder that need no other file
     more: measurements! {
         "gum-h1-end-gauge",
         "gum-h3-thermometer-line",
@@ -129,6 +132,31 @@ mod tests {
         for (found, wanted) in values.iter().zip(&wanted) {
             assert_eq!(found, wanted);
         }
+    }
+
+    /// Every built-in model and every example belongs to one field of the page's gallery, and has a
+    /// title that is no code name; no name of the gallery is left over.
+    #[test]
+    fn the_gallery_has_everything_once() {
+        let catalogue = crate::measurements::catalogue();
+        let templates = catalogue.iter().filter_map(|of| Some((of.name(), of.template?)));
+        let all: Vec<(&str, &str)> = templates.chain(EXAMPLES.starting_points()).collect();
+        let mut wanted: Vec<&str> = all.iter().map(|(name, _)| *name).collect();
+        let mut arranged: Vec<&str> =
+            gumption_live::gallery::fields().flat_map(|(_, names)| names).collect();
+        wanted.sort_unstable();
+        arranged.sort_unstable();
+        assert_eq!(arranged, wanted);
+        let title = |text: &str| {
+            let of: Value = serde_json::from_str(text).unwrap();
+            of["title"].as_str().unwrap().to_owned()
+        };
+        let mut titles: Vec<String> = all.iter().map(|(_, text)| title(text)).collect();
+        for ((name, _), title) in all.iter().zip(&titles) {
+            assert!(!title.trim().is_empty() && title != name, "{name}: {title}");
+        }
+        titles.sort_unstable();
+        assert!(titles.windows(2).all(|two| two[0] != two[1]), "{titles:?}");
     }
 
     #[test]

@@ -63,8 +63,14 @@ export async function visit(context, address) {
     window.answered = [];
     document.addEventListener("answered", event => window.answered.push(event.detail));
   });
+  if (files) {
+    // what follows a redirection is not routed
+    const { location } = (await context.request.get(address, { maxRedirects: 0 })).headers();
+    address = new URL(location || address, address).href;
+  }
   await page.goto(address);
-  await page.waitForFunction(() => window.answered && window.answered.length > 0, null, { timeout: 20000 }).catch(error => {
+  const isThere = () => window.answered && (window.answered.length > 0 || document.querySelector("#large .card svg"));
+  await page.waitForFunction(isThere, null, { timeout: 20000 }).catch(error => {
     throw new Error([error.message, ...page.errors].join("\n"));
   });
   return page;

@@ -50,6 +50,7 @@ const until = (page, check, argument) => page.waitForFunction(check, argument, {
 const source = page => page.evaluate(() => document.getElementById("source").value);
 
 await test("the resistor of the README from nothing, with the command line's digits", async (page, folder) => {
+  await page.click("#begin-empty");
   await page.fill("#title", "Power in a resistor");
   await page.fill("#equations", "power = voltage^2/resistance");
   await page.locator("#missing").getByText("all of them").click();
@@ -176,32 +177,204 @@ await test("a gap case is shown with its diagnosis", async page => {
   await shot(page, "gap");
 }, { open: "case.json", files: [["models/gap/radius", "."]] });
 
-await test("new from a published example and from a template", async page => {
+/** Sentences that are English, of what a page shows. */
+const english = page => page.evaluate(() => {
+  const own = document.getElementById("source").value.toLowerCase();
+  const words = /\b(the|of|is|are|and|with|from|which|by|not|that|to|for|no|row|what|how)\b/gi;
+  const found = [];
+  const walk = document.createTreeWalker(document.body, NodeFilter.SHOW_TEXT);
+  for (let node = walk.nextNode(); node; node = walk.nextNode()) {
+    const of = node.parentElement;
+    if (of.closest("script, noscript, pre, code, textarea, #mistakes, [lang=en]")) continue;
+    const left = (node.data.match(words) || []).filter(word => !own.includes(word.toLowerCase()));
+    if (left.length) found.push(node.data.trim());
+  }
+  for (const of of document.querySelectorAll("[aria-label], [title], [placeholder]")) {
+    for (const name of ["aria-label", "title", "placeholder"]) {
+      const said = of.getAttribute(name) || "";
+      if (words.test(said)) found.push(said);
+    }
+  }
+  return found;
+});
+
+/** What the page shows of a mistake or in the colour of one. */
+const red = page => page.evaluate(() => [...document.querySelectorAll("#mistakes li, #told, [aria-invalid=true], mark")].filter(of => of.textContent !== "" || of.matches("input")).length);
+const isNarrow = async page => assert(await page.evaluate(() => document.documentElement.scrollWidth) <= 390, "the page scrolls sideways");
+const shown = page => until(page, () => !document.getElementById("file").hidden && document.querySelector("#headline .value") && !document.getElementById("results").hidden);
+
+await test("the start page has examples with their results, and no red", async page => {
+  await until(page, () => document.querySelectorAll("#large .card svg").length === 3);
+  const [power] = await page.locator("#large .card").allInnerTexts();
+  assert.match(power, /Power in a resistor[\s\S]*power = [(]251.*mW/);
+  assert.equal(await red(page), 0);
+  await shot(page, "start", { fullPage: true });
+  await page.locator("#large .card").first().click();
+  await shown(page);
+  assert.equal(await page.inputValue("#title"), "Power in a resistor");
+  // the name of the program leads back, and the open file stays
+  await page.click("#home");
+  await until(page, () => !document.getElementById("start").hidden && document.querySelectorAll("#large .card svg").length === 3);
+  await page.click("#go-on");
+  await shown(page);
+  // an empty file says calmly what comes first, with the keyboard alone
+  await page.focus("#home");
+  await page.keyboard.press("Enter");
+  await page.focus("#begin-empty");
+  await page.keyboard.press("Enter");
+  await until(page, () => /First write the equation/.test(document.getElementById("nothing").innerText) && !document.getElementById("nothing").hidden);
+  await page.fill("#title", "Mine");
+  await page.waitForTimeout(500);
+  assert.equal(await red(page), 0);
+  await page.focus("#home");
+  await page.keyboard.press("Enter");
+  await page.locator("#large .card").nth(1).focus();
+  await page.keyboard.press("Enter");
+  await page.locator("#dialog-actions button").first().click();
+  await shown(page);
+  assert.match(await page.inputValue("#title"), /Gauge block/);
+  // a certificate and a case begin without red as well
+  for (const way of ["certificate", "case"]) {
+    await page.click("#new");
+    await page.click(`#begin-${way}`);
+    await until(page, () => !document.getElementById("nothing").hidden && !document.getElementById("file").hidden);
+    assert.equal(await red(page), 0, way);
+  }
+});
+
+await test("the gallery has fields of work, titles, and a search", async page => {
+  await until(page, () => document.querySelectorAll("#gallery details").length > 10);
+  const names = JSON.parse(await page.evaluate(() => JSON.stringify([...document.querySelectorAll("#gallery .entry")].map(of => of.textContent))));
+  assert(names.length > 75 && new Set(names).size === names.length, `${names.length} entries`);
+  assert.deepEqual(names.filter(name => /\b(ea402|jcgm101|gum|quam|nist1900|tn1900)-/.test(name)), []);
+  await page.fill("#gallery-search", "end gauge");
+  assert.equal(await page.locator("#gallery .entry:visible").count(), 1);
+  assert.equal(await text(page, "#gallery-found"), "1 example");
+  await page.locator("#gallery .entry:visible").click();
+  await shown(page);
+  assert.match(await page.inputValue("#title"), /end gauge/);
   await page.click("#new");
-  await page.locator("#dialog input").fill("h1");
-  await page.locator("#dialog .entry", { hasText: "gum-h1-end-gauge" }).click();
-  await until(page, () => /l = |E|gauge|end/i.test(document.getElementById("title").value) && document.querySelector("#headline .value"));
-  await page.click("#new");
-  await page.locator("#dialog .entry", { hasText: "inclined-plane" }).first().click();
+  await page.fill("#gallery-search", "inclined plane 35 deg");
+  await page.locator("#gallery .entry:visible").first().click();
   await until(page, () => document.querySelectorAll("#output-tabs button").length === 3);
   await page.locator("#output-tabs button").nth(2).click();
   await until(page, () => /^a_z/.test(document.querySelector("#headline .value").innerText));
 });
 
-await test("import of a spreadsheet", async page => {
+await test("recent files, and files of the folder by kind", async page => {
+  await until(page, () => document.querySelectorAll("#folder-files .entry").length > 2);
+  assert.equal(await page.locator("#recent").isVisible(), false);
+  assert.match(await text(page, "#folder-files"), /Measurements/);
+  await page.locator("#folder-files .entry", { hasText: "power.json" }).click();
+  await shown(page);
+  await page.reload();
+  await until(page, () => document.querySelectorAll("#recent-files .entry").length === 1);
+  await page.locator("#recent-files .entry", { hasText: "Power in a resistor" }).click();
+  await shown(page);
+  assert.equal(await text(page, "#path"), "power.json");
+}, { files: ["power.json", "certificate.json", "last_year.json", "results.csv"].map(name => [`models/examples/${name}`, name]) });
+
+const paste = async (page, table) => {
+  await page.fill("#pasted", table.map(row => row.join("\t")).join("\n"));
+  await until(page, () => !document.getElementById("sheet").hidden);
+};
+
+await test("a budget is pasted and used", async page => {
+  await page.click("#begin-paste");
+  await paste(page, [["Quantity", "Estimate", "Unit", "Standard uncertainty"], ["V", "5,0", "V", "0,01"], ["I", "0,1", "A", "0,001"], ["R = V/I", "", "", ""]]);
+  await page.locator("#use-budget:enabled").waitFor();
+  assert.match(await text(page, "#sheet-state"), /can be used/);
+  assert.equal(await page.inputValue('[aria-label="What column D holds"]'), "standard-uncertainty");
+  await page.click("#use-budget");
+  await until(page, () => document.querySelector('[aria-label="mean of V"]') !== null);
+  await shown(page);
+  assert.equal(await page.inputValue('[aria-label="mean of V"]'), "5.0");
+});
+
+await test("what a pasted budget does not say is asked and answered by clicks", async page => {
+  await page.click("#import");
+  await paste(page, [["Quantity", "Estimate", "Unit", "Error"], ["a", "5.0", "mm", "0.01"], ["b", "7.0", "mm", "0.02"]]);
+  await until(page, () => document.querySelectorAll("#sheet-questions li").length > 0);
+  assert.equal(await page.isDisabled("#use-budget"), true);
+  assert.doesNotMatch(await text(page, "#sheet-questions"), /--/);
+  await shot(page, "import", { fullPage: true });
+  // a press on the question goes to the head of the column, whose choice answers it
+  await page.locator("#sheet-questions .asked").first().click();
+  assert.equal(await page.evaluate(() => document.activeElement.getAttribute("aria-label")), "What column D holds");
+  await page.selectOption('[aria-label="What column D holds"]', "U");
+  await page.getByRole("button", { name: "Coverage factor k: 2" }).first().click();
+  await page.getByRole("button", { name: /none: the sum of the quantities/ }).first().click();
+  await page.locator("#use-budget:enabled").waitFor();
+  await page.click("#use-budget");
+  await shown(page);
+  assert.equal(await page.inputValue('[aria-label="expanded uncertainty U of a"]'), "0.01");
+});
+
+await test("a spreadsheet of a file is asked about, row by row", async page => {
   const imported = async csv => {
-    const [chooser] = await Promise.all([page.waitForEvent("filechooser"), page.click("#import")]);
+    await page.click("#import");
+    const [chooser] = await Promise.all([page.waitForEvent("filechooser"), page.click("#pick-sheet")]);
     await chooser.setFiles({ name: "budget.csv", mimeType: "text/csv", buffer: Buffer.from(csv) });
+    await until(page, () => document.getElementById("sheet-file").textContent === "budget.csv" && document.getElementById("sheet-table").rows.length > 2);
   };
   // coefficients without units of V and A do not tell the unit of the result
   await imported("Quantity,Estimate,Unit,Standard uncertainty,Sensitivity\nV,5.0,V,0.01,1\nI,0.1,A,0.001,-2\n");
-  await until(page, () => /^budget.csv:1:1: nothing says the unit of the result/m.test(document.body.innerText));
-  await imported("Quantity,Estimate,Unit,Standard uncertainty\nV,5.0,V,0.01\nI,0.1,A,0.001\nR = V/I\n");
-  await until(page, () => document.getElementById("dialog").open);
-  assert.match(await text(page, "#dialog-body"), /Understood/);
-  await page.locator("#dialog-actions button").first().click();
-  await until(page, () => document.querySelector('[aria-label="mean of V"]') !== null);
+  await until(page, () => /nothing says the unit of the result/.test(document.getElementById("sheet-questions").innerText));
+  await page.getByRole("button", { name: "Unit of the result" }).first().click();
+  assert.equal(await page.evaluate(() => document.activeElement.dataset.key), "field unit");
+  await imported("Quantity,Estimate,Unit,Standard uncertainty\nV,5.0,V,0.01\nI,0.1,A,0.001\nTotal ?,3,V,\nR = V/I\n");
+  await until(page, () => /Row 4:/.test(document.getElementById("sheet-questions").innerText));
+  await page.selectOption('[aria-label="What row 4 is"]', "ignore");
+  await page.locator("#use-budget:enabled").waitFor();
+  await page.click("#use-budget");
+  await shown(page);
 });
+
+await test("a workbook is shown, and one of this program comes back", async (page, folder) => {
+  const choose = async name => {
+    await page.click("#import");
+    const [chooser] = await Promise.all([page.waitForEvent("filechooser"), page.click("#pick-sheet")]);
+    await chooser.setFiles(join(folder, name));
+    await until(page, name => document.getElementById("sheet-file").textContent === name, name);
+  };
+  execFileSync(process.env.GUMPTION, ["import", "--template", join(folder, "empty.xlsx")]);
+  execFileSync(process.env.GUMPTION, ["run", join(root, "models/examples/power.json"), "--format", "xlsx", "--output", join(folder, "power.xlsx"), "--quiet", "--trials", "10000"]);
+  await choose("empty.xlsx");
+  await page.locator("#use-budget:enabled").waitFor();
+  assert.equal(await page.inputValue('[aria-label="What row 4 is"]'), "heading");
+  await shot(page, "import-workbook", { fullPage: true });
+  // another sheet has no budget
+  await page.selectOption('[aria-label="Sheet"]', { index: 2 });
+  await until(page, () => /no budget is found/.test(document.getElementById("sheet-questions").innerText));
+  assert.doesNotMatch(await text(page, "#sheet-questions"), /--/);
+  assert.equal(await page.isDisabled("#use-budget"), true);
+  await choose("power.xlsx");
+  await page.locator("#use-budget:enabled").waitFor();
+  await page.click("#use-budget");
+  await shown(page);
+  assert.equal(await page.inputValue("#title"), "Power in a resistor");
+});
+
+for (const [name, options] of [["at 390 px", { viewport: { width: 390, height: 844 } }], ["in German, dark", { lang: "de", colorScheme: "dark" }]]) {
+  await test(`start page and import, ${name}`, async page => {
+    const look = async state => {
+      await page.evaluate(await readFile(axe, "utf8") + ";window.axe = axe;0");
+      const found = await page.evaluate(() => window.axe.run(document, { runOnly: ["wcag2a", "wcag2aa", "wcag21a", "wcag21aa", "wcag22aa", "best-practice"] }));
+      assert.deepEqual(found.violations.map(of => `${of.id}: ${of.nodes.slice(0, 3).map(node => node.html.slice(0, 160)).join("\n")}`), [], state);
+      if (options.viewport) await isNarrow(page);
+      if (options.lang) assert.deepEqual(await english(page), [], state);
+    };
+    await until(page, () => document.querySelectorAll("#large .card svg").length === 3);
+    await page.fill("#gallery-search", "pt100");
+    await shot(page, options.lang ? "start-german" : "start-phone", { fullPage: true });
+    await look("start");
+    await page.click("#import");
+    await paste(page, [["Quantity", "Estimate", "Unit", "Error"], ["a", "5.0", "mm", "0.01"], ["b", "7.0", "mm", "0.02"]]);
+    await until(page, () => document.querySelectorAll("#sheet-questions li").length > 0);
+    await shot(page, options.lang ? "import-german" : "import-phone", { fullPage: true });
+    await look("import");
+  }, options);
+}
 
 await test("inputs come, go and get other names", async page => {
   await page.click("#add-input");
@@ -216,6 +389,7 @@ await test("inputs come, go and get other names", async page => {
 }, POWER);
 
 await test("a file of markup is text", async (page, folder) => {
+  await page.click("#begin-empty");
   const evil = "<img src=x onerror=\"window.hit=1\"><script>window.hit=1</script>";
   const file = { title: evil, inputs: { a: { unit: "m", distribution: "normal", mean: 1, std: 0.1, about: evil, group: evil } }, equations: { y: "a*a" }, outputs: { y: { unit: "m^2", about: evil } } };
   await answered(page, () => page.click("#view-text").then(() => page.fill("#source", JSON.stringify(file))));
@@ -291,7 +465,7 @@ for (const [name, colorScheme] of [["light", "light"], ["dark", "dark"]]) {
     await page.fill("#equations", "power = voltage^2/resistanse");
     await until(page, () => document.querySelectorAll("#mistakes li").length > 0);
     await look("with mistakes");
-    await page.click("#new");
+    await page.click("#open");
     await until(page, () => document.getElementById("dialog").open);
     await look("with a question");
     await page.locator("#dialog-actions button").first().click();
@@ -433,36 +607,15 @@ await test("a printed sheet says what it is of", async page => {
   }
 }, POWER);
 
-/** Sentences that are English, of what a page shows. */
-const english = page => page.evaluate(() => {
-  const own = document.getElementById("source").value.toLowerCase();
-  const words = /\b(the|of|is|are|and|with|from|which|by|not|that|to|for|no|row|what|how)\b/gi;
-  const found = [];
-  const walk = document.createTreeWalker(document.body, NodeFilter.SHOW_TEXT);
-  for (let node = walk.nextNode(); node; node = walk.nextNode()) {
-    const of = node.parentElement;
-    if (of.closest("script, noscript, pre, code, textarea, #mistakes, [lang=en]")) continue;
-    const left = (node.data.match(words) || []).filter(word => !own.includes(word.toLowerCase()));
-    if (left.length) found.push(node.data.trim());
-  }
-  for (const of of document.querySelectorAll("[aria-label], [title], [placeholder]")) {
-    for (const name of ["aria-label", "title", "placeholder"]) {
-      const said = of.getAttribute(name) || "";
-      if (words.test(said)) found.push(said);
-    }
-  }
-  return found;
-});
-
 await test("no English sentence is left on the German page", async page => {
-  await page.click("#more summary");
-  for (const name of ["gum-h1-end-gauge", "gum-h3-thermometer-line", "tn1900-e7-thermistor"]) {
+  for (const name of ["end gauge", "thermometer eleven readings", "thermistor thermometer"]) {
     await page.click("#new");
-    await page.locator("#dialog input").fill(name);
-    await page.locator("#dialog .entry", { hasText: name }).first().click();
-    await until(page, () => document.querySelector("#headline .value") && !document.getElementById("results").hidden);
+    await page.fill("#gallery-search", name);
+    await page.locator("#gallery .entry:visible").first().click();
+    await shown(page);
     await refined(page);
     await until(page, () => document.querySelector("#part-audit table") !== null || document.getElementById("box-audit").hidden === false);
+    if (!await page.locator("#more").getAttribute("open")) await page.evaluate(() => { document.getElementById("more").open = true; });
     assert.deepEqual(await english(page), [], name);
   }
   // a value without a name of a distribution
@@ -480,6 +633,7 @@ await test("speed with 20 inputs", async page => {
     terms.push(number % 3 ? `x${number}` : `sin(x${number})*x${number}`);
   }
   const model = { format: 1, title: "Twenty inputs", inputs, equations: { y: terms.join(" + ") }, outputs: { y: { unit: "1" } } };
+  await page.click("#begin-empty");
   await page.click("#view-text");
   await page.fill("#source", JSON.stringify(model, null, 1));
   await page.click("#view-form");

@@ -20,6 +20,7 @@ mod options;
 mod own;
 mod rows;
 mod sheets;
+mod shown;
 mod stated;
 mod symbol;
 mod table;
@@ -41,6 +42,7 @@ use gumption_text::{Collector, DiagnosticKind, SourceText, bytes, workbook};
 use mark::{MarkedCell, doubt};
 pub use options::{Coefficients, ImportOptions};
 use sheets::Chosen;
+pub use shown::{ShownColumn, ShownSheet};
 use table::Header;
 
 /// A model file that was made of a budget.
@@ -81,11 +83,29 @@ pub fn import_budget_bytes(
     content: Vec<u8>,
     options: &ImportOptions,
 ) -> Result<ImportedBudget, RefusedBudget> {
+    read_budget(path, content, options).1
+}
+
+/// The names of the sheets of a workbook; none of a text.
+pub fn sheet_names(path: &Path, content: Vec<u8>) -> Vec<String> {
+    match workbook::is_workbook(path) {
+        Ok(true) => sheets::names(content),
+        _ => Vec::new(),
+    }
+}
+
+/// As [`import_budget_bytes`], with the cells of the sheet that was read; none of a file that has no cells, and
+/// of a workbook that this program has made.
+pub fn read_budget(
+    path: &Path,
+    content: Vec<u8>,
+    options: &ImportOptions,
+) -> (Option<ShownSheet>, Result<ImportedBudget, RefusedBudget>) {
     let name = path.display().to_string();
     let failed = |kind: DiagnosticKind| {
         let log = Collector::new(SourceText::new(name.clone(), ""));
         log.report(&(0..0), kind);
-        Err(log.into_diagnostics().into())
+        (None, Err(log.into_diagnostics().into()))
     };
     let is_workbook = match workbook::is_workbook(path) {
         Ok(is_workbook) => is_workbook,
@@ -98,14 +118,14 @@ pub fn import_budget_bytes(
     if is_workbook && options.sheet.is_none() {
         match own::of_workbook(path, &content) {
             Ok(None) => {}
-            Ok(Some(made)) => return made.map_err(RefusedBudget::from),
+            Ok(Some(made)) => return (None, made.map_err(RefusedBudget::from)),
             Err(message) => return failed(DiagnosticKind::Unreadable { message }),
         }
     }
     let read = if is_workbook {
         Chosen::of(content, options)
     } else {
-        let read = grid::of_text(&content, options);
+        let read = grid::of_text(path, &content, options);
         read.map(|(cells, text)| Chosen { cells, text, said: Vec::new() })
     };
     let Chosen { cells, text, said } = match read {
@@ -125,8 +145,10 @@ pub fn import_budget_bytes(
     let made = sheet.budget(&file.unwrap_or_default());
     let ReadSheet { notes, questions, .. } = sheet;
     let notes = notes.into_inner();
-    log.finish(made.map(|text| ImportedBudget { text, notes }))
-        .map_err(|diagnostics| RefusedBudget { diagnostics, questions: questions.into_inner() })
+    let made = log
+        .finish(made.map(|text| ImportedBudget { text, notes }))
+        .map_err(|diagnostics| RefusedBudget { diagnostics, questions: questions.into_inner() });
+    (Some(ShownSheet::of(&cells, options)), made)
 }
 
 impl ReadSheet<'_> {

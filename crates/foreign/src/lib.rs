@@ -14,6 +14,6 @@ pub use comparison::{
     read_comparison_text, sigma_by,
 };
 pub use import::{
-    Coefficients, ImportOptions, ImportedBudget, Question, RefusedBudget, import_budget,
-    import_budget_bytes,
+    Coefficients, ImportOptions, ImportedBudget, Question, RefusedBudget, ShownColumn, ShownSheet,
+    import_budget, import_budget_bytes, read_budget, sheet_names,
 };

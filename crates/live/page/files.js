@@ -16,11 +16,12 @@ export class Files {
   state() {
     const { words } = this;
     const { path, isSaved, text } = this.page.document;
-    this.element("path").textContent = path || this.page.named || words.unnamed;
+    const isFile = this.page.shown === "file";
+    this.element("path").textContent = isFile ? path || this.page.named || words.unnamed : "";
     const { diagnostics, open } = this.page.mistakes;
     const changed = diagnostics.length ? words.changed_mistakes : open.length ? words.changed_open : words.changed;
     const isUntouched = path === null && text === this.page.pristine;
-    const state = this.page.isLost ? words.lost : !this.page.program.hasFolder ? words.offline : isUntouched ? "" : isSaved ? words.saved : changed;
+    const state = this.page.isLost ? words.lost : !this.page.program.hasFolder ? words.offline : !isFile || isUntouched ? "" : isSaved ? words.saved : changed;
     this.say("state", state);
     this.element("undo").disabled = this.page.document.past.length === 0;
     this.element("redo").disabled = this.page.document.future.length === 0;
@@ -44,10 +45,13 @@ export class Files {
     this.page.named = name;
     this.page.pristine = text;
     this.page.found = null;
+    this.page.isNew = false;
+    this.page.isBegun = false;
     this.page.mistakes.diagnostics = [];
     this.page.mistakes.open = [];
     this.page.begin();
     this.state();
+    this.page.beginning.used(path);
   }
 
   async open(path) {
@@ -61,6 +65,7 @@ export class Files {
     try {
       const { text } = await this.page.program.call("new", request);
       this.take(text, null, null);
+      this.page.isNew = !request.example && !request.template;
     } catch (error) { this.page.failed(error); }
   }
 
@@ -90,6 +95,7 @@ export class Files {
       const saved = await this.page.program.ask("save", { path, text, version });
       this.page.document.version = saved.version;
       this.page.document.saved = text;
+      this.page.beginning.used(path);
     } catch (error) {
       if (error.status === 409) { this.isSaving = false; return this.conflict(error.answer); }
       this.page.failed(error);
@@ -165,25 +171,6 @@ export class Files {
     else if (chosen) await this.open(chosen);
   }
 
-  async newDialog() {
-    const { words } = this;
-    if (!await this.mayLeave()) return;
-    const { templates, examples } = await this.page.program.call("examples", {});
-    const body = make("div", { class: "list" });
-    const entry = (request, name, title) => make("button", { type: "button", class: "entry", onclick: () => this.page.dialog.close(request) }, make("b", {}, name), " ", make("span", { class: "detail" }, title || ""));
-    const list = filter => {
-      const fits = of => `${of.name} ${of.title || ""} ${of.source || ""}`.toLowerCase().includes(filter);
-      return [
-        make("h3", {}, words.templates), ...templates.filter(fits).map(of => entry({ template: of.name }, of.name, of.title)),
-        make("h3", {}, words.examples), ...examples.filter(fits).map(of => entry({ example: of.name }, of.name, of.title || of.source)),
-      ];
-    };
-    body.replaceChildren(...list(""));
-    const filter = make("input", { type: "search", placeholder: words.search, "aria-label": words.search, oninput: () => body.replaceChildren(...list(filter.value.toLowerCase())) });
-    const chosen = await this.page.dialog.choose(words.new_title, make("div", {}, filter, body), [[words.empty, {}], [words.cancel, null]]);
-    if (chosen) await this.begin(chosen);
-  }
-
   async exportDialog() {
     const { words } = this;
     // a workbook and a saved result need a clock and a disk
@@ -253,7 +240,7 @@ export class Files {
           if (file !== first || kept.includes(file)) await this.page.program.hold(file.name, await file.arrayBuffer());
         }
       }
-      if (first && !await this.mayLeave()) return;
+      if (first && isJson(first) && !await this.mayLeave()) return;
       if (first && isJson(first)) this.take(texts.get(first), null, null, first.name);
       else if (first) await this.#import(first);
       else this.page.ask();
@@ -265,17 +252,14 @@ export class Files {
 
   /** A table: one of results to be compared is opened, a budget imported. */
   async #import(file) {
-    const { words } = this;
     const bytes = new Uint8Array(await file.arrayBuffer());
     if (/\.csv$/i.test(file.name)) {
       const text = new TextDecoder().decode(bytes);
-      if (/^\ufeff?\s*"?label"?\s*[,;\t]/i.test(text)) { this.take(text, null, null, file.name); return; }
+      if (/^\ufeff?\s*"?label"?\s*[,;\t]/i.test(text)) {
+        if (await this.mayLeave()) this.take(text, null, null, file.name);
+        return;
+      }
     }
-    let binary = "";
-    for (let place = 0; place < bytes.length; place += 0x8000) binary += String.fromCharCode(...bytes.subarray(place, place + 0x8000));
-    const made = await this.page.program.call("import", { name: file.name, base64: btoa(binary) });
-    this.take(made.text, null, null);
-    const list = (title, said) => said.length ? [make("h3", {}, title), make("ul", {}, ...said.map(text => make("li", {}, text)))] : [];
-    await this.page.dialog.choose(words.import_title, make("div", {}, ...list(words.understood, made.notes)), [[words.ok, null]]);
+    this.page.import.file(file.name, bytes);
   }
 }

@@ -110,6 +110,9 @@ export class Mistakes {
 
   /** Something that has gone wrong, beside the mistakes. */
   told(message) {
+    const isFile = this.page.shown === "file";
+    this.element("told").textContent = isFile ? "" : message || "";
+    if (!isFile) return;
     const list = this.element("mistakes");
     list.dataset.shown = "";
     list.querySelectorAll(".told").forEach(item => item.remove());

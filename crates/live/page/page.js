@@ -7,10 +7,12 @@ import { Document } from "./document.js";
 import { Equations } from "./equations.js";
 import { Files } from "./files.js";
 import { Form } from "./form.js";
+import { Import } from "./import.js";
 import { Mistakes } from "./mistakes.js";
 import { fillPrint } from "./print.js";
 import { at, make, put } from "./parts.js";
 import { Result } from "./result.js";
+import { Start } from "./start.js";
 import { connect } from "./transport.js";
 import de from "./words.de.js";
 import en from "./words.en.js";
@@ -43,6 +45,9 @@ class Page {
     this.forms = { model: [this.form] };
     this.language = pickLanguage(program.hello.lang);
     this.words = this.language === "de" ? de : en;
+    this.hasFile = false;
+    this.beginning = new Start(this);
+    this.import = new Import(this);
   }
 
   async start() {
@@ -51,9 +56,27 @@ class Page {
     this.form.kinds = await this.program.call("kinds", {});
     this.element("units").replaceChildren(...this.form.kinds.units.map(value => make("option", { value })));
     this.program.watch(event => this.files.onDisk(event), isLost => this.#lost(isLost));
-    const { open } = await this.program.ask("files", {});
-    if (open) await this.files.open(open);
-    else await this.files.begin({});
+    const listing = this.beginning.listing = await this.program.ask("files", {});
+    if (listing.open) await this.files.open(listing.open);
+    else await this.beginning.show();
+  }
+
+  /** Shows the start page, the open file, or a spreadsheet that is imported. */
+  turn(shown) {
+    const before = this.shown;
+    this.shown = shown;
+    for (const id of ["start", "import-view", "file"]) this.element(id).hidden = id !== (shown === "import" ? "import-view" : shown);
+    for (const element of document.querySelectorAll(".of-file")) element.hidden = shown !== "file";
+    this.files.state();
+    if (shown !== "file") this.mistakes.told(null);
+    if (before !== undefined && before !== shown) this.element({ start: "start-title", import: "import-title", file: "editor-title" }[shown]).focus({ preventScroll: true });
+  }
+
+  /** A file was just begun and nothing is there yet that could be wrong. */
+  #isBegun(found) {
+    if (!this.isNew) return false;
+    if (this.document.text === this.pristine) return true;
+    return found.kind === "model" && (found.equations || []).length === 0 && found.diagnostics.every(of => of.path.length <= 1);
   }
 
   /** Another file is open: nothing of the last one stays. */
@@ -65,6 +88,8 @@ class Page {
     this.source.text = this.document.text;
     this.form.clear();
     this.result.clear();
+    this.hasFile = true;
+    this.turn("file");
     this.show("form");
     this.ask();
   }
@@ -83,7 +108,7 @@ class Page {
   }
 
   ask() {
-    if (!this.isGiven) this.answers.ask(this.#request());
+    if (!this.isGiven && this.hasFile) this.answers.ask(this.#request());
   }
 
   /** What is asked about the text as it is. */
@@ -234,6 +259,8 @@ class Page {
   failed(error) { this.mistakes.failed(error); }
 
   answer(found, request) {
+    this.isBegun = this.#isBegun(found);
+    if (this.isBegun) found = { ...found, diagnostics: [] };
     this.found = found;
     this.isUnanswered = false;
     const force = this.force && request.text === this.document.text;
@@ -253,7 +280,8 @@ class Page {
     }
     for (const form of this.shownForms) form.show(found, force);
     this.mistakes.show(found, request);
-    if (isModel) this.result.results(found);
+    if (this.isBegun) this.result.wait();
+    else if (isModel) this.result.results(found);
     else this.result.report(found, request);
     this.files.state();
     document.dispatchEvent(new CustomEvent("answered", { detail: { took: performance.now() - request.at, full: found.full, mistakes: found.diagnostics.length } }));
@@ -317,12 +345,11 @@ class Page {
     on("redo", "click", () => this.redo());
     on("save", "click", () => this.files.save());
     on("open", "click", () => this.files.openDialog());
-    on("new", "click", () => this.files.newDialog());
     on("export", "click", () => this.files.exportDialog());
     // with a server, the command line does it
     this.element("verify").hidden = this.program.hasFolder;
     on("verify", "click", () => this.files.verifyDialog());
-    on("import", "click", () => this.files.pick(".csv,.xlsx"));
+    on("import", "click", () => this.import.show());
     on("copy", "click", async () => {
       try {
         await navigator.clipboard.writeText(this.document.text);
@@ -352,6 +379,8 @@ class Page {
       put(this.element("part-audit"), "");
       if (this.found) this.answer(this.found, { text: this.document.text, path: this.document.path, at: performance.now() });
       this.ask();
+      this.beginning.translate();
+      this.import.translate();
     });
     document.addEventListener("keydown", event => {
       if (!(event.ctrlKey || event.metaKey) || event.altKey) return;
@@ -359,7 +388,7 @@ class Page {
       const act = key === "s" ? () => this.files.save()
         : key === "z" && !event.shiftKey ? () => this.undo()
         : key === "y" || key === "z" && event.shiftKey ? () => this.redo() : null;
-      if (!act || this.dialog.isOpen) return;
+      if (!act || this.dialog.isOpen || this.shown !== "file") return;
       event.preventDefault();
       act();
     });

@@ -60,6 +60,7 @@ export class Result {
     if (has && found.whole && found.results[0]) this.stated = found.results.every(of => of.statement.kind === "interval") ? "monte-carlo" : found.results.every(of => of.statement.kind === "expanded") ? "gum" : null;
     if (!has) {
       this.age();
+      this.element("nothing").textContent = words.nothing;
       this.element("nothing").hidden = this.hasResults;
       results.hidden = !this.hasResults;
       return;
@@ -142,27 +143,10 @@ export class Result {
       badges.replaceChildren();
       return;
     }
-    const { statement, gum, clause_8: clause, conformity } = of;
-    const bare = of.unit === "" || of.unit === "1";
-    const percent = words.number(String(Number((100 * found.coverage_probability).toFixed(2))));
+    const { clause_8: clause, conformity } = of;
     const number = text => words.number(printed(text));
-    const value = make("p", { class: "value" });
-    const said = [];
-    if (statement.kind === "expanded") {
-      const both = `${number(statement.estimate)} ± ${number(statement.expanded)}`;
-      value.append(make("i", {}, of.name), " = ", bare ? both : `(${both})`);
-      said.push(`k = ${number(statement.factor)}`, words.coverage(percent));
-    } else if (statement.kind === "interval") {
-      value.append(make("i", {}, of.name), " = ", number(statement.estimate));
-      said.push(`${words.interval} ${words.from_to(number(statement.low), number(statement.high))} (${statement.shortest ? words.shortest : words.symmetric})`, words.coverage(percent));
-      if (statement.uncertainty !== null) said.push(words.standard(number(statement.uncertainty)));
-    } else if (statement.kind === "standard") {
-      value.append(make("i", {}, of.name), " = ", number(statement.estimate));
-      said.push(words.standard(number(statement.uncertainty)));
-    } else {
-      value.append(make("i", {}, of.name), " ", words.undefined);
-    }
-    if (!bare && statement.kind !== "undefined") value.append("\u2009", make("span", { class: "unit" }, ...unit(of.unit)));
+    const { value: nodes, said } = stated(of, found, words);
+    const value = make("p", { class: "value" }, ...nodes);
     const line = make("p", { class: "said" }, said.join(" · "));
     const key = value.textContent + line.textContent;
     if (place.dataset.key !== key) {
@@ -188,6 +172,14 @@ export class Result {
     const short = marks.filter(of => of.classList.contains("badge")).map(of => of.cloneNode(true));
     if (clause) short[0].textContent = clause.valid === true ? words.bar_yes : clause.valid === false ? words.bar_no : words.bar_open;
     this.element("bar-badges").replaceChildren(...short);
+  }
+
+  /** Nothing is known yet of a file that was just begun; its form says what comes first. */
+  wait() {
+    this.clear();
+    for (const id of ["report", "output-tabs", "rows-box"]) this.element(id).hidden = true;
+    this.element("nothing").hidden = false;
+    this.element("nothing").textContent = this.words.first_of[this.page.kind] || this.words.nothing;
   }
 
   audit(found) {
@@ -224,4 +216,29 @@ export class Result {
       }
     }, this.reported ? 900 : 0);
   }
+}
+
+/** What is stated of an output: nodes of the value, and sentences of its uncertainty. */
+export function stated({ name, unit: of, statement }, found, words) {
+  const bare = of === "" || of === "1";
+  const percent = words.number(String(Number((100 * found.coverage_probability).toFixed(2))));
+  const number = text => words.number(printed(text));
+  const value = [make("i", {}, name)];
+  const said = [];
+  if (statement.kind === "expanded") {
+    const both = `${number(statement.estimate)} ± ${number(statement.expanded)}`;
+    value.push(" = ", bare ? both : `(${both})`);
+    said.push(`k = ${number(statement.factor)}`, words.coverage(percent));
+  } else if (statement.kind === "interval") {
+    value.push(" = ", number(statement.estimate));
+    said.push(`${words.interval} ${words.from_to(number(statement.low), number(statement.high))} (${statement.shortest ? words.shortest : words.symmetric})`, words.coverage(percent));
+    if (statement.uncertainty !== null) said.push(words.standard(number(statement.uncertainty)));
+  } else if (statement.kind === "standard") {
+    value.push(" = ", number(statement.estimate));
+    said.push(words.standard(number(statement.uncertainty)));
+  } else {
+    value.push(" ", words.undefined);
+  }
+  if (!bare && statement.kind !== "undefined") value.push("\u2009", make("span", { class: "unit" }, ...unit(of)));
+  return { value, said };
 }

@@ -71,17 +71,3 @@ fn named<'t>(
     let hint = near.map_or_else(String::new, |near| format!("; did you mean `{near}`?"));
     Err(LiveError::Request(format!("there is no {what} `{name}`{hint}")))
 }
-
-/// The available starting points.
-pub(crate) fn list(live: &Live<'_>) -> Json {
-    let entry = |name: &str, text: &str| {
-        let of: Json = serde_json::from_str(text).unwrap_or(Json::Null);
-        json!({ "name": name, "title": of["title"], "source": of["source"] })
-    };
-    let templates = live.catalogue.iter().filter_map(|of| Some(entry(of.name(), of.template?)));
-    let examples = live.examples.iter().map(|(name, text)| entry(name, text));
-    json!({
-        "templates": templates.collect::<Vec<_>>(),
-        "examples": examples.collect::<Vec<_>>(),
-    })
-}

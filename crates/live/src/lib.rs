@@ -7,9 +7,11 @@
 
 mod answer;
 mod audit;
+mod controls;
 mod diagnostics;
 mod edit;
 mod examples;
+pub mod gallery;
 mod german;
 mod held;
 mod import;
@@ -93,10 +95,10 @@ impl<'a> Live<'a> {
     /// | `edit` | `text`, `edits` | `text` |
     /// | `reshape` | `text`, `path`, `way`, `kept` | `text` with another way in which an input is known |
     /// | `new` | `example`, `template` or nothing | `text` |
-    /// | `examples` | | lists of names with titles |
+    /// | `examples` | | `large`, `fields`: starting points with titles and sources by field of work |
     /// | `kinds` | | distributions with their keys, ways in which inputs are known, units |
     /// | `contents` | `file` | `columns`, `quantities` or `outputs` of a file that an input can name |
-    /// | `import` | `name`, `base64` | `text`, `notes` |
+    /// | `import` | `name`, `base64`, `options`, `lang` | `sheet`: its cells; `text`, `notes`; or `questions`, `mistakes` |
     ///
     /// # Errors
     /// The call does not exist, or the request does not match it.
@@ -118,7 +120,7 @@ impl<'a> Live<'a> {
             }
             "reshape" => reshape::reshaped(files, &asked(request)?)?,
             "new" => examples::new(self, &asked(request)?)?,
-            "examples" => examples::list(self),
+            "examples" => gallery::list(self),
             "kinds" => kinds::all(),
             "contents" => named::contents(files, folder, &asked(request)?)?,
             "import" => import::imported(&asked(request)?)?,

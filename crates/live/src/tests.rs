@@ -454,7 +454,11 @@ fn every_distribution_can_be_begun() {
 #[test]
 fn there_is_something_starting_points() {
     let list = call("examples", &json!({}));
-    assert_eq!(list["examples"][0]["name"], "power");
+    assert_eq!(list["large"][0]["title"], "Power in a resistor");
+    let fields = list["fields"].as_array().unwrap();
+    let of = |field: &str| fields.iter().find(|of| of["field"] == field).unwrap();
+    assert_eq!(of("electricity")["entries"][0]["kind"], "example");
+    assert_eq!(of("vibration")["entries"][0]["kind"], "template");
     assert_eq!(call("new", &json!({"example": "power"}))["text"], POWER);
     let wrong = try_call("new", &json!({"example": "powr"}), &HeldFiles::default()).unwrap_err();
     assert_eq!(wrong.to_string(), "there is no example `powr`; did you mean `power`?");
@@ -463,23 +467,39 @@ fn there_is_something_starting_points() {
     assert_eq!(call("kinds", &json!({}))["ways"][0]["needed"], json!(["mean", "std"]));
 }
 
+fn imported(name: &str, text: &str, options: &Value) -> Value {
+    let base64 = base64::Engine::encode(&base64::engine::general_purpose::STANDARD, text);
+    call("import", &json!({"name": name, "base64": base64, "options": options}))
+}
+
 #[test]
 fn a_budget_of_a_spreadsheet() {
     let csv = "R = U/I\nQuantity,Estimate,Unit,Standard uncertainty\nU,5.0,V,0.01\nI,0.1,A,0.001\n";
-    let base64 = base64::Engine::encode(&base64::engine::general_purpose::STANDARD, csv);
-    let made = call("import", &json!({"name": "../x/budget.csv", "base64": base64}));
+    let made = imported("../x/budget.csv", csv, &json!({}));
     assert!(made["text"].as_str().unwrap().contains("\"U\""), "{made}");
-    // a question is shown with the option that decides
-    let csv = "Quantity,Estimate,Unit,U\na,5.0,V,0.01\n";
-    let base64 = base64::Engine::encode(&base64::engine::general_purpose::STANDARD, csv);
-    let asked = json!({"name": "budget.csv", "base64": base64});
-    let asked = try_call("import", &asked, &HeldFiles::default()).unwrap_err().to_string();
-    assert!(asked.contains("`--k 2`"), "{asked}");
-    let wrong = json!({"name": "a.xlsx", "base64": "UEs="});
-    assert!(matches!(
-        try_call("import", &wrong, &HeldFiles::default()),
-        Err(LiveError::Request(_))
-    ));
+    assert_eq!(made["sheet"]["heading"], 2);
+    assert_eq!(made["sheet"]["columns"][3]["name"], "standard-uncertainty");
+    assert_eq!(made["sheet"]["rows"][2], json!(["U", "5.0", "V", "0.01"]));
+    let wrong = imported("a.xlsx", "PK", &json!({}));
+    assert_eq!((&wrong["sheet"], &wrong["mistakes"][0]["row"]), (&Value::Null, &Value::Null));
+}
+
+/// A question comes with its rows and with what answers it, and an answer is an option.
+#[test]
+fn questions_of_a_spreadsheet() {
+    let tsv = "Quantity\tEstimate\tUnit\tU; expanded\na\t5,0\tV\t0,01\n";
+    let asked = imported("pasted.tsv", tsv, &json!({"columns": [["U", "#4"]]}));
+    let question = &asked["questions"][0];
+    assert_eq!(question["rows"], json!([2, 2]), "{asked}");
+    assert_eq!(question["controls"][0], json!({"option": "k", "name": null, "value": "2"}));
+    assert_eq!(asked["sheet"]["columns"][3], json!({"name": "U", "has_unit": true}));
+    let said = json!({"columns": [["U", "#4"]], "k": 2.0, "coefficients": "one"});
+    let made = imported("pasted.tsv", tsv, &said);
+    assert!(made["text"].as_str().unwrap().contains("\"expanded\""), "{made}");
+    // what the page could not say is told as a mistake of its row
+    let wrong = imported("pasted.tsv", tsv, &json!({"columns": [["U", "#9"]]}));
+    assert_eq!(wrong["questions"], json!([]));
+    assert_eq!(wrong["mistakes"][0]["row"], 1, "{wrong}");
 }
 
 #[test]

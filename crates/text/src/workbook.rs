@@ -165,7 +165,8 @@ impl fmt::Debug for Book {
 pub struct SheetName {
     /// Its index among all sheets, from 0.
     place: usize,
-    pub(crate) name: String,
+    /// Its name.
+    pub name: String,
     pub(crate) is_hidden: bool,
 }
 
@@ -202,7 +203,7 @@ impl Book {
     }
 
     /// The sheets with cells, in their order.
-    pub(crate) fn sheets(&self) -> Vec<SheetName> {
+    pub fn sheets(&self) -> Vec<SheetName> {
         let all = self.workbook.sheets_metadata().iter().enumerate();
         let with_cells = all.filter(|(_, sheet)| sheet.typ == SheetType::WorkSheet);
         with_cells

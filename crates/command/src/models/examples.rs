@@ -12,7 +12,8 @@ use super::one_line;
 struct Sourced {
     #[serde(default)]
     title: String,
-    source: String,
+    #[serde(default)]
+    source: Option<String>,
 }
 
 /// The list of examples, or the model file of one.
@@ -49,7 +50,8 @@ fn list(published: &PublishedExamples) -> Result<String, Failure> {
     for (name, model) in published.more {
         let Sourced { title, source } = serde_json::from_str(model)
             .map_err(|error| Failure::System(format!("{name}: {error}")))?;
-        text += &format!("{name:<widest$}  {} ({})\n", one_line(&title), one_line(&source));
+        let source = source.map_or_else(String::new, |source| format!(" ({})", one_line(&source)));
+        text += &format!("{name:<widest$}  {}{source}\n", one_line(&title));
     }
     Ok(text + "\n`gumption models --examples NAME` prints one, `--output FILE` writes it.\n")
 }

@@ -47,7 +47,7 @@ pub struct PublishedExamples {
 
 impl PublishedExamples {
     /// The model files that serve as starting points, by name.
-    pub(crate) fn starting_points(&self) -> impl Iterator<Item = (&str, &str)> + Clone {
+    pub fn starting_points(&self) -> impl Iterator<Item = (&str, &str)> + Clone {
         self.cases.iter().chain(self.more).copied()
     }
 

@@ -21,6 +21,9 @@ pub struct Question {
     pub readings: Vec<String>,
     /// The option that decides, or the options.
     pub option: String,
+    /// The rows that the question is about, from 1.
+    #[serde(skip)]
+    pub rows: RangeInclusive<usize>,
 }
 
 impl fmt::Display for Question {
@@ -90,8 +93,9 @@ impl ReadSheet<'_> {
         option: impl Into<String>,
     ) {
         let readings = readings.map(shortened).into();
-        let question =
-            Question { about: shortened(&about.into()), readings, option: option.into() };
+        let about = shortened(&about.into());
+        let rows = lines.start() + 1..=lines.end() + 1;
+        let question = Question { about, readings, option: option.into(), rows };
         self.fail_in(lines, &question.to_string());
         self.questions.borrow_mut().push(question);
     }

@@ -122,15 +122,25 @@ impl Column {
         NAMES.iter().find(|(_, column)| *column == self).map_or("", |(name, _)| name)
     }
 
-    /// All names, in a sentence.
-    pub(super) fn all_names() -> String {
+    /// All names; of several of one column the first.
+    pub(super) fn names() -> Vec<&'static str> {
         let mut names: Vec<&str> = Vec::new();
         for (_, column) in NAMES {
             if !names.contains(&column.name()) {
                 names.push(column.name());
             }
         }
-        names.join(", ")
+        names
+    }
+
+    /// All names, in a sentence.
+    pub(super) fn all_names() -> String {
+        Self::names().join(", ")
+    }
+
+    /// Whether `--column-unit` says the unit of its cells.
+    pub(super) fn has_unit(self) -> bool {
+        self.is_of_numbers() || self == Self::Sensitivity
     }
 }
 

@@ -3,6 +3,7 @@
 use std::cell::RefCell;
 use std::collections::HashMap;
 use std::ops::Range;
+use std::path::Path;
 
 use super::columns::{self, Column};
 use super::options::ImportOptions;
@@ -150,8 +151,10 @@ pub(super) fn of_sheet(
     (cells, text, said)
 }
 
-/// The cells of a CSV file, and the text of messages.
+/// The cells of a CSV file, and the text of messages. A file whose name ends in `.tsv` has tabs between its
+/// cells, as a text that is copied from a spreadsheet.
 pub(super) fn of_text(
+    path: &Path,
     content: &[u8],
     options: &ImportOptions,
 ) -> Result<(Cells, String), DiagnosticKind> {
@@ -159,6 +162,9 @@ pub(super) fn of_text(
     let text = bytes::text(content).map_err(unreadable)?;
     if let Some((_, kind)) = no_table(&SourceText::new("", &text)) {
         return Err(kind);
+    }
+    if path.extension().is_some_and(|of| of.eq_ignore_ascii_case("tsv")) {
+        return separated(&text, Separator::Tab);
     }
     // words may have any of the signs in them: the headings tell which one separates
     let read = [Separator::Semicolon, Separator::Tab, Separator::Comma]

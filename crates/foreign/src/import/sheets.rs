@@ -21,6 +21,12 @@ pub(super) struct Chosen {
     pub(super) said: Vec<Fact>,
 }
 
+/// The names of the sheets of a workbook; none of one that cannot be opened.
+pub(super) fn names(content: Vec<u8>) -> Vec<String> {
+    let sheets = Book::open(content).map(|book| book.sheets());
+    sheets.unwrap_or_default().into_iter().map(|sheet| sheet.name).collect()
+}
+
 impl Chosen {
     /// The sheet of that name, or the one that is shown and holds a budget; the first one that is shown
     /// where none does.

@@ -80,6 +80,26 @@ impl Header {
         sheet.log.is_clean().then_some(header)
     }
 
+    /// The headings of a line with the columns that options name, as far as these are right.
+    pub(super) fn said_only(cells: &Cells, line: usize, options: &ImportOptions) -> Self {
+        let headings = cells.row(line).to_vec();
+        let (columns, said) = (Vec::new(), Vec::new());
+        let mut header = Self { line, first: line, headings, columns, said, units: Vec::new() };
+        for (name, said) in &options.columns {
+            if let (Some(column), &[place]) =
+                (Column::named(name), header.places_of(said).as_slice())
+            {
+                header.columns.push((place, column));
+            }
+        }
+        header
+    }
+
+    /// What the column of a place holds.
+    pub(super) fn column_at(&self, place: usize) -> Option<Column> {
+        self.columns.iter().find(|(own, _)| *own == place).map(|(_, column)| *column)
+    }
+
     /// The columns that options name.
     fn said_columns(&mut self, sheet: &ReadSheet) -> Option<()> {
         let fail = |reason: String| {
@@ -128,6 +148,11 @@ impl Header {
         let same = |place: &usize| is_same(said, self.heading(*place));
         let by_heading: Vec<usize> = (0..self.headings.len()).filter(same).collect();
         let said = said.trim();
+        // `#3` is the third one, whatever the headings are
+        if let Some(number) = said.strip_prefix('#') {
+            let place = number.parse::<usize>().ok().and_then(|number| number.checked_sub(1));
+            return place.into_iter().collect();
+        }
         let letter = || {
             let digits = said.bytes().all(|byte| byte.is_ascii_alphabetic())
                 && (1..=2).contains(&said.len());
@@ -266,8 +291,7 @@ impl Header {
             sheet.options.column_units.iter().any(|(name, _)| Column::named(name) == Some(column))
         };
         for (place, column) in self.columns.clone() {
-            let has_unit = column.is_of_numbers() || column == Column::Sensitivity;
-            if !has_unit || is_said(column) {
+            if !column.has_unit() || is_said(column) {
                 continue;
             }
             match (unit_of_header(self.heading(place), column.is_of_values()), self.unit(place)) {
