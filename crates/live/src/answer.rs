@@ -9,7 +9,7 @@ use gumption_engine::propagate::{
     Control, Evaluation, convergence, evaluate, histograms, warnings,
 };
 use gumption_engine::task::{MethodChoice, Task, Trials};
-use gumption_files::{FileReader, ModelFile, TextKind};
+use gumption_files::{CaseFile, FileReader, ModelFile, TextKind};
 use gumption_foreign::{ComparisonOptions, read_comparison_text};
 use gumption_report::{EvaluationReport, FigureSize, PageChoice, Provenance, Shown, page_parts};
 use gumption_text::Diagnostics;
@@ -83,10 +83,17 @@ pub(crate) fn answer(
         TextKind::Model => files.model_text(name, text, Path::new(""), &[]),
         // their pages evaluate them and report errors that only the evaluation finds
         other => {
-            let found = checked(files, other, name, text).err();
-            answer["diagnostics"] =
-                found.map_or(json!([]), |found| diagnostics::list(text, &found));
+            let found = checked(files, other, name, text);
+            if let Err(found) = &found {
+                answer["diagnostics"] = diagnostics::list(text, found);
+            }
             answer["content"] = root.as_ref().map_or(Json::Null, |root| tree::content(bare, root));
+            // the model of a case has the fields of any model
+            if let Some(root) = root.as_ref().filter(|_| kind == TextKind::Case) {
+                let case = found.as_ref().ok().and_then(Option::as_ref);
+                let found = stated(bare, root, case.map(|file| &file.case.task));
+                merge(&mut answer, found);
+            }
             return Ok(answer);
         }
     };
@@ -110,23 +117,24 @@ pub(crate) fn answer(
     Ok(answer)
 }
 
-/// The errors of a text that is not a model.
+/// The errors of a text that is not a model; the case if it is one.
 fn checked(
     files: FileReader<'_>,
     kind: TextKind,
     name: &str,
     text: &str,
-) -> Result<(), Diagnostics> {
+) -> Result<Option<CaseFile>, Diagnostics> {
     let folder = Path::new("");
     match kind {
-        TextKind::Case => files.case_text(name, text, folder).map(drop),
+        TextKind::Case => return files.case_text(name, text, folder).map(Some),
         TextKind::Certificate => files.certificate_text(name, text, folder).map(drop),
         TextKind::Comparison => {
             read_comparison_text(name, text, ComparisonOptions::default()).map(drop)
         }
         TextKind::Recipe | TextKind::Costs => files.check_text(name, text, folder).map(drop),
         _ => Ok(()),
-    }
+    }?;
+    Ok(None)
 }
 
 fn merge(into: &mut Json, from: Json) {

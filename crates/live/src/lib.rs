@@ -19,6 +19,7 @@ mod language;
 mod outputs;
 pub mod page;
 mod reshape;
+mod table;
 #[cfg(test)]
 mod tests;
 mod tree;
@@ -91,6 +92,8 @@ impl<'a> Live<'a> {
     /// | `new` | `example`, `template` or nothing | `text` |
     /// | `examples` | | lists of names with titles |
     /// | `kinds` | | distributions with their keys, units |
+    /// | `effects` | | the ready-made effects of cases |
+    /// | `table` | `file` | headings and cells of a table that a case can name |
     /// | `import` | `name`, `base64` | `text`, `notes` |
     ///
     /// # Errors
@@ -115,6 +118,8 @@ impl<'a> Live<'a> {
             "new" => examples::new(self, &asked(request)?)?,
             "examples" => examples::list(self),
             "kinds" => kinds::all(),
+            "effects" => json!(gumption_files::catalogue().effects),
+            "table" => table::headed(folder, &asked(request)?)?,
             "import" => import::imported(&asked(request)?)?,
             other => return Err(LiveError::Unknown(other.to_owned())),
         };
