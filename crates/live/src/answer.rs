@@ -12,7 +12,7 @@ use gumption_engine::task::{MethodChoice, Task, Trials};
 use gumption_files::{CaseFile, FileReader, ModelFile, TextKind};
 use gumption_foreign::{ComparisonOptions, read_comparison_text};
 use gumption_report::{EvaluationReport, FigureSize, PageChoice, Provenance, Shown, page_parts};
-use gumption_text::Diagnostics;
+use gumption_text::{Diagnostics, FileSource};
 use jsonc_parser::ast::Value;
 use serde::Deserialize;
 use serde_json::{Value as Json, json};
@@ -20,7 +20,7 @@ use std::path::Path;
 
 use crate::edit::{Edit, edited};
 use crate::tree::{self, path_of};
-use crate::{LiveError, diagnostics, inputs, limited, outputs};
+use crate::{LiveError, diagnostics, inputs, limited, outputs, table};
 use gumption_report::words::Language;
 
 /// Maximum number of trials over all rows, up to which the page refines in the background. The
@@ -63,6 +63,7 @@ pub(crate) struct AnswerRequest {
 /// The contents of a text and its results.
 pub(crate) fn answer(
     files: FileReader<'_>,
+    folder: &dyn FileSource,
     asked: &AnswerRequest,
     stop: &Arc<AtomicBool>,
 ) -> Result<Json, LiveError> {
@@ -93,6 +94,7 @@ pub(crate) fn answer(
                 let case = found.as_ref().ok().and_then(Option::as_ref);
                 let found = stated(bare, root, case.map(|file| &file.case.task));
                 merge(&mut answer, found);
+                answer["data"] = table::of_case(bare, root, folder);
             }
             return Ok(answer);
         }

@@ -93,7 +93,7 @@ impl<'a> Live<'a> {
     /// | `examples` | | lists of names with titles |
     /// | `kinds` | | distributions with their keys, units |
     /// | `effects` | | the ready-made effects of cases |
-    /// | `table` | `file` | headings and cells of a table that a case can name |
+    /// | `table` | `text` | headings and numbers of a pasted table |
     /// | `import` | `name`, `base64` | `text`, `notes` |
     ///
     /// # Errors
@@ -107,7 +107,7 @@ impl<'a> Live<'a> {
     ) -> Result<String, LiveError> {
         let files = FileReader::new(self.catalogue).reading(folder);
         let answer = match name {
-            "answer" => answer::answer(files, &asked(request)?, stop)?,
+            "answer" => answer::answer(files, folder, &asked(request)?, stop)?,
             "audit" => audit::audited(files, &asked(request)?, stop)?,
             "edit" => {
                 let asked: edit_call::EditRequest = asked(request)?;
@@ -119,7 +119,7 @@ impl<'a> Live<'a> {
             "examples" => examples::list(self),
             "kinds" => kinds::all(),
             "effects" => json!(gumption_files::catalogue().effects),
-            "table" => table::headed(folder, &asked(request)?)?,
+            "table" => table::pasted(&asked(request)?)?,
             "import" => import::imported(&asked(request)?)?,
             other => return Err(LiveError::Unknown(other.to_owned())),
         };

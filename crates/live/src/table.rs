@@ -4,9 +4,11 @@ use gumption_columns::heading;
 use gumption_columns::separator::{DecimalMarks, Separator, is_skipped};
 use gumption_engine::model::formula::check_name;
 use gumption_text::{FileSource, bytes};
+use jsonc_parser::ast::{Object, ObjectProp, Value};
 use serde::Deserialize;
 use serde_json::{Value as Json, json};
 
+use crate::tree;
 use crate::{LiveError, limited};
 
 /// Maximum number of columns of a table that is shown.
@@ -19,11 +21,7 @@ const SHOWN: usize = 3;
 #[derive(Debug, Deserialize)]
 pub(crate) struct TableRequest {
     /// The table as somebody pasted it.
-    #[serde(default)]
-    text: Option<String>,
-    /// The name of a file, as a case has it.
-    #[serde(default)]
-    file: Option<String>,
+    text: String,
 }
 
 /// Why a text is no table of numbers under headings; the page has the words.
@@ -31,20 +29,47 @@ fn fault(kind: &str, of: &Json) -> Json {
     json!({ "fault": kind, "of": of })
 }
 
-/// The columns of a table.
-pub(crate) fn headed(folder: &dyn FileSource, asked: &TableRequest) -> Result<Json, LiveError> {
-    match (&asked.text, &asked.file) {
-        (Some(text), _) => Ok(columns(limited(text)?, true)),
-        (None, Some(name)) => {
-            let content = folder.content(name, bytes::MOST);
-            let text =
-                content.and_then(|content| bytes::text(&content).map(std::borrow::Cow::into_owned));
-            Ok(match text {
-                Ok(text) => columns(&text, false),
-                Err(message) => fault("said", &json!(message)),
-            })
-        }
-        (None, None) => Err(LiveError::Request("a text or a file is needed".to_owned())),
+/// The columns of a pasted table.
+pub(crate) fn pasted(asked: &TableRequest) -> Result<Json, LiveError> {
+    Ok(columns(limited(&asked.text)?, true))
+}
+
+/// The columns of the data of a case, be they in the case or in a file; null where it has none.
+pub(crate) fn of_case(text: &str, root: &Value<'_>, folder: &dyn FileSource) -> Json {
+    let Some(observations) = tree::get(root, "observations") else { return Json::Null };
+    if let Some(lists) = tree::get(observations, "values").and_then(Value::as_object) {
+        return of_lists(text, lists);
+    }
+    let name = tree::get(observations, "file").and_then(Value::as_string_lit);
+    let Some(name) = name.filter(|name| !name.value.is_empty()) else { return Json::Null };
+    let content = folder.content(&name.value, bytes::MOST);
+    let read = |content: Vec<u8>| bytes::text(&content).map(std::borrow::Cow::into_owned);
+    match content.and_then(read) {
+        Ok(text) => columns(&text, false),
+        Err(message) => fault("said", &json!(message)),
+    }
+}
+
+fn of_lists(text: &str, lists: &Object<'_>) -> Json {
+    let mut rows = 0;
+    let column = |of: &ObjectProp<'_>| {
+        let cells = of.value.as_array().map(|array| array.elements.as_slice()).unwrap_or_default();
+        rows = rows.max(cells.len());
+        let first: Vec<String> =
+            cells.iter().take(SHOWN).map(|cell| tree::raw(text, cell)).collect();
+        let heading = of.name.as_str();
+        let (name, unit) = bare(heading);
+        json!({ "heading": heading, "key": heading, "name": name, "unit": unit, "first": first, "none": null })
+    };
+    let columns: Vec<Json> = lists.properties.iter().take(MOST_COLUMNS).map(column).collect();
+    json!({ "columns": columns, "rows": rows })
+}
+
+/// A heading without its unit, and the unit.
+fn bare(heading: &str) -> (&str, Option<&str>) {
+    match heading::named(heading) {
+        Some((bare, unit)) if !bare.is_empty() => (bare, Some(unit)),
+        _ => (heading, None),
     }
 }
 
@@ -100,10 +125,7 @@ fn columns(text: &str, is_pasted: bool) -> Json {
     });
     let told: Vec<Json> = told
         .map(|(place, (text, column))| {
-            let (bare, unit) = match heading::named(text) {
-                Some((bare, unit)) if !bare.is_empty() => (bare, Some(unit)),
-                _ => (text.as_str(), None),
-            };
+            let (bare, unit) = bare(text);
             let name = free_name(bare, place + 1, &mut taken);
             // a name that formulas can use, with the unit as it is written
             let key = unit.map_or(name.clone(), |unit| format!("{name} [{unit}]"));
@@ -188,6 +210,27 @@ mod tests {
 
     fn pasted(text: &str) -> Json {
         columns(text, true)
+    }
+
+    #[test]
+    fn the_data_of_a_case_are_shown_as_they_are_written() {
+        let text = r#"{"observations": {"values": {"f [Hz]": [1.50, 2, 3, 4], "y": [1, 2]}}}"#;
+        let root = tree::parse(text).unwrap();
+        let found = of_case(text, &root, &crate::HeldFiles::default());
+        assert_eq!(found["rows"], 4);
+        assert_eq!(found["columns"][0]["first"], json!(["1.50", "2", "3"]));
+        assert_eq!(
+            (&found["columns"][0]["name"], &found["columns"][0]["unit"]),
+            (&json!("f"), &json!("Hz"))
+        );
+        let text = r#"{"observations": {"file": "a.csv"}}"#;
+        let held = crate::HeldFiles(vec![("a.csv".to_owned(), b"t [s],x\n1,2\n".to_vec())]);
+        let found = of_case(text, &tree::parse(text).unwrap(), &held);
+        assert_eq!(found["columns"][0]["key"], "t [s]");
+        let found = of_case(text, &tree::parse(text).unwrap(), &crate::HeldFiles::default());
+        assert_eq!(found["fault"], "said");
+        let text = r#"{"observations": {}}"#;
+        assert_eq!(of_case(text, &tree::parse(text).unwrap(), &held), Json::Null);
     }
 
     #[test]

@@ -8,8 +8,8 @@ use std::sync::atomic::{AtomicBool, Ordering};
 use std::time::Duration;
 
 use crate::{
-    Answers, EvaluatedPage, Exported, FileDescription, LocalServer, NamedFiles, OpenedFolder, Refusal,
-    RequestTimes, ServedAsset, ServerOptions, TextOfFile,
+    Answers, EvaluatedPage, Exported, FileDescription, LocalServer, NamedFiles, OpenedFolder,
+    Refusal, RequestTimes, ServedAsset, ServerOptions, TextOfFile,
 };
 
 /// Works until it is stopped, or, where the call says so, far longer.
