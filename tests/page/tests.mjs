@@ -488,6 +488,23 @@ await test("a diagnosis tells its share and is stopped", async page => {
   await page.click("#case-stop");
 }, { open: "case.json", files: [["models/gap/lateral_motion/case.json", "case.json"], ["models/gap/lateral_motion/data.csv", "data.csv"]] });
 
+await test("a ready-made effect that would explain the data is added by its button", async page => {
+  await until(page, () => document.querySelectorAll(".case-column").length === 5);
+  assert.equal(await page.locator("#case-file").inputValue(), "data.csv");
+  assert.equal(await page.getByLabel("Meaning of the column phi", { exact: true }).inputValue(), "value:phi");
+  const { catalogue } = JSON.parse(await source(page));
+  for (const name of catalogue.filter(name => !["phase-offset", "scale-factor"].includes(name))) {
+    await page.locator("#case-catalogue label", { has: page.locator("b", { hasText: new RegExp(`^${name}$`) }) }).locator("input").uncheck();
+    await until(page, name => !JSON.parse(document.getElementById("source").value).catalogue.includes(name), name);
+  }
+  const add = field(page, "Add low-pass as a candidate");
+  await add.waitFor({ timeout: 60000 });
+  await shot(page, "case-unlisted");
+  await add.click();
+  await verdict(page, "low-pass explains");
+  assert.deepEqual(JSON.parse(await source(page)).catalogue, [...catalogue.filter(name => ["phase-offset", "scale-factor"].includes(name)), "low-pass"]);
+}, { open: "case.json", files: [["models/gap/mems_low_pass/case.json", "case.json"], ["models/gap/mems_low_pass/data.csv", "data.csv"]] });
+
 await test("a case on a phone, dark, in German", async page => {
   await caseOf(page, response(20, 30));
   await columnsSaid(page, true);

@@ -136,7 +136,8 @@ export class CaseForm extends Fields {
     const { path } = this.page.document;
     this.filesOf = path;
     const choice = this.page.element("case-file");
-    const { files } = await this.page.program.ask("files", {});
+    let files;
+    try { ({ files } = await this.page.program.ask("files", {})); } catch (error) { return this.page.failed(error); }
     const folder = path && path.includes("/") ? path.replace(/[^/]*$/, "") : "";
     const tables = files.map(of => of.path).filter(of => /\.csv$/i.test(of) && of.startsWith(folder)).map(of => of.slice(folder.length));
     const now = (this.content.observations || {}).file || "";
@@ -206,7 +207,8 @@ export class CaseForm extends Fields {
     const meanings = this.#meanings(column);
     const choice = make("select", { "aria-label": words.case_column(column.name), onchange: () => this.#mean(column, meanings, choice.value) });
     const option = (value, text) => make("option", { value }, text);
-    const outputs = this.outputs;
+    // what is said of an output that is no more is shown, so that it can be changed
+    const outputs = [...new Set([...this.outputs, ...meanings.map(([of]) => of.split(":")[1]).filter(of => of)])];
     choice.append(option("", words.case_unused), option("condition", words.case_condition));
     for (const name of outputs) choice.append(make("optgroup", { label: name }, ...OF_OUTPUT.map(key => option(`${key}:${name}`, words.case_is[key](name)))));
     choice.append(option("new", words.case_is_new), ...OF_ROWS.map(key => option(key, words.case_is[key])));

@@ -188,5 +188,5 @@ export class Diagnosis {
 
 /** A probability in percent; what rounds to certainty is none. */
 function certainty(p) {
-  return p >= 0.999 ? "> 99.9" : p < 0.001 ? "< 0.1" : (100 * p).toPrecision(p < 0.1 ? 2 : 3);
+  return p >= 0.999 ? ">\u00a099.9" : p < 0.001 ? "<\u00a00.1" : (100 * p).toPrecision(p < 0.1 ? 2 : 3);
 }

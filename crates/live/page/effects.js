@@ -11,6 +11,7 @@ export class Effects {
     this.form = form;
     this.all = null;
     this.boxes = [];
+    this.pending = null;
     page.element("case-all").addEventListener("change", event => this.#set(event.target.checked ? "all" : []));
     page.element("case-search").addEventListener("input", () => this.#list());
     page.element("case-add-effect").addEventListener("click", () => this.#add());
@@ -20,8 +21,8 @@ export class Effects {
 
   get own() { return this.form.content.effects || {}; }
 
-  /** The names that the file asks for, or "all". */
-  get ticked() { return this.form.content.catalogue || []; }
+  /** The names that the file asks for, or "all"; what was ticked last may not be answered yet. */
+  get ticked() { return this.pending || this.form.content.catalogue || []; }
 
   /** What the fields of the own effects depend on, but not what is in them. */
   shape() {
@@ -30,6 +31,7 @@ export class Effects {
   }
 
   show() {
+    if (this.page.isSettled) this.pending = null;
     this.#list();
     const all = this.page.element("case-all");
     all.checked = this.ticked === "all";
@@ -43,9 +45,11 @@ export class Effects {
   // the catalogue
 
   async #load() {
-    if (this.all) return;
+    if (this.isLoading) return;
+    this.isLoading = true;
+    let listed;
+    try { listed = await this.page.program.call("effects", {}); } catch (error) { return this.page.failed(error); } finally { this.isLoading = false; }
     this.all = new Map();
-    const listed = await this.page.program.call("effects", {});
     // those of any bench first
     listed.sort((a, b) => (a.bench === "any" ? 0 : 1) - (b.bench === "any" ? 0 : 1));
     // one name may have several forms, for models that name their quantities differently
@@ -58,9 +62,8 @@ export class Effects {
   }
 
   #set(names) {
-    if (Array.isArray(names) && !names.length) {
-      if (this.form.content.catalogue !== undefined) this.page.edit([{ path: ["catalogue"], remove: true }]);
-    } else this.page.edit([{ path: ["catalogue"], value: names }]);
+    this.pending = names;
+    this.page.edit([{ path: ["catalogue"], value: names }]);
   }
 
   #list() {
@@ -107,7 +110,7 @@ export class Effects {
     const above = { name: this.#name(path, words.case_effect_name(name), to => [{ path, rename: to }]), about: form.field([...path, "about"], words.of(words.key.about, name), { kind: "text", class: "about", size: 18 }) };
     const labelled = (word, field, more = "") => make("span", { class: `labelled ${more}` }, make("span", { class: "key", "aria-hidden": true }, word), field);
     return make("fieldset", { class: "own-effect" }, make("legend", {}, name),
-      make("div", { class: "row" }, labelled(words.name, above.name), labelled(words.key.about, above.about), form.remove(path, name)),
+      make("div", { class: "row" }, labelled(words.key.name, above.name), labelled(words.key.about, above.about), form.remove(path, name)),
       ...Object.entries(effect.overrides || {}).map(([target]) => this.#override(path, name, target, effect)),
       ...Object.entries(effect.parameters || {}).map(([parameter, of]) => this.#parameter(path, name, parameter, of || {})),
       make("p", {},

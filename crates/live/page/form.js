@@ -229,6 +229,7 @@ export class Form extends Fields {
     if (this.slid !== null && choice.value !== this.slid) choice.value = this.slid;
     const slide = this.page.element("slide");
     slide.disabled = this.slid === null;
+    slide.closest(".slider").hidden = this.slid === null;
     const now = numbers.find(of => of.key === this.slid);
     this.page.element("slide-value").textContent = now ? now.cell.raw : "";
     if (now && !this.isSliding) this.#range(now);

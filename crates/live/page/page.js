@@ -137,6 +137,9 @@ class Page {
     this.isWorking = false;
   }
 
+  /** Whether what was answered last is the text with all changes. */
+  get isSettled() { return !this.isWorking && this.answeredText === this.document.text; }
+
   /** What was typed last is on its way into the text: until it is there. */
   async settled() {
     for (let turn = 0; this.isWorking && turn < 200; turn++) await new Promise(done => setTimeout(done, 10));
@@ -222,6 +225,7 @@ class Page {
   answer(found, request) {
     if (found.kind === "case") found = { ...found, diagnostics: this.caseForm.calm(found) };
     this.found = found;
+    this.answeredText = request.text;
     this.isUnanswered = false;
     const force = this.force && request.text === this.document.text;
     if (force) this.force = false;

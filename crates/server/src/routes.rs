@@ -371,7 +371,7 @@ async fn page(State(house): State<Arc<House>>, request: Request) -> Response {
         let internal = |error: String| Refusal::Internal(error);
         let name = house.pages.keep(&html).map_err(|error| internal(error.to_string()))?;
         let address = format!("api/page/{name}");
-        let answer = answer.map(|text| RawValue::from_string(text)).transpose();
+        let answer = answer.map(RawValue::from_string).transpose();
         let answer = answer.map_err(|error| internal(error.to_string()))?;
         Ok::<_, Refusal>(json(&PageToShow { html, address, answer }))
     };
