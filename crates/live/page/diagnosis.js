@@ -137,7 +137,7 @@ export class Diagnosis {
     const none = hypotheses.find(of => of.effects && of.effects.length === 0);
     const p = words.number(certainty(verdict.probability));
     const isSure = verdict.kind === "none" || 1 - (none ? none.probability : 0) >= SURE;
-    const isLikely = verdict.kind === "unexplained" || verdict.probability >= LIKELY;
+    const isLikely = verdict.probability >= LIKELY;
     const names = verdict.effects.join(" + ");
     const what = verdict.kind === "none" ? words.case_none(p) : verdict.kind === "unexplained" ? words.case_unexplained(p) : verdict.beside ? words.case_beside(names, p) : words.case_explained(names, p);
     const said = isSure && isLikely ? what : words.case_open(what);

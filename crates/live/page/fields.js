@@ -72,7 +72,7 @@ export class Fields {
       // what need not be said is not said; everything else asks for a value
       const isThere = field.written !== undefined && field.written !== "";
       field.written = "";
-      if (OPTIONAL.includes(path[path.length - 1]) || path[0] !== "inputs") {
+      if (OPTIONAL.includes(path[path.length - 1]) || !["inputs", "effects"].includes(path[0])) {
         if (isThere) this.page.edit([{ path: this.whole(path), remove: true }], `typed:${at(path)}`);
       } else {
         this.page.edit([{ path, value: kind === "list" ? [] : kind === "text" ? "" : null }], `typed:${at(path)}`);
