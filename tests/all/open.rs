@@ -237,6 +237,8 @@ fn pages_of_other_files_are_shown_in_a_sandbox() {
         assert!(html.starts_with("<!DOCTYPE html>"), "{name}");
         let shown = server.get(&format!("/{}", answer["address"].as_str().unwrap()));
         assert_eq!(shown.text(), html);
+        // what a diagnosis proposes comes with its page
+        assert_eq!(answer["answer"]["verdict"].is_object(), name == "case.json", "{name}");
         let policy = shown.header("content-security-policy").unwrap();
         assert!(policy.starts_with("sandbox; default-src 'none';"), "{policy}");
         assert!(!policy.contains("script"), "{policy}");

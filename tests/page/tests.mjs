@@ -625,6 +625,133 @@ await test("no English sentence is left on the German page", async page => {
   await until(page, () => /Subtotals|Sensitivity/.test(document.getElementById("part-budget").innerText));
 }, { lang: "de" });
 
+/** A response over frequency that falls off as a low-pass does, as a spreadsheet copies it: with decimal commas. */
+function response(rows, corner) {
+  let state = 7;
+  const noise = () => { state = (state * 16807) % 2147483647; return (state / 2147483647 - 0.5) * 0.01; };
+  const row = n => {
+    const f = 10 ** (0.2 + n * 2.3 / rows);
+    return [f.toFixed(2), (1 / Math.hypot(1, f / corner) + noise()).toFixed(4), "0.003", "1", "ok"];
+  };
+  const lines = [["f [Hz]", "measured gain", "u", "model", "remark"], ...Array.from({ length: rows }, (_, n) => row(n))];
+  return lines.map(line => line.join("\t").replaceAll(".", ",")).join("\r\n");
+}
+
+/** An empty case, into which a table is pasted and whose columns are said. */
+async function caseOf(page, table) {
+  await page.evaluate(async () => {
+    const { text } = await (await fetch("api/call/new", { method: "POST", body: JSON.stringify({ kind: "case" }), headers: { "X-Gumption": localStorage.getItem("gumption"), "Content-Type": "application/json" } })).json();
+    const area = document.getElementById("source");
+    area.value = text;
+    area.dispatchEvent(new InputEvent("input", { bubbles: true }));
+  });
+  await page.click("#view-form");
+  await until(page, () => !document.getElementById("case-form").hidden && /Paste|paste|einfügen/.test(document.getElementById("case-lacks").innerText));
+  assert.equal(await page.locator("#mistakes li").count(), 0, "an empty case has no mistakes");
+  await page.fill("#case-paste", table);
+  await page.locator("#case-paste").blur();
+  await until(page, () => document.querySelectorAll(".case-column").length === 4);
+}
+
+async function columnsSaid(page, de = false) {
+  const of = name => page.getByLabel(de ? `Bedeutung der Spalte ${name}` : `Meaning of the column ${name}`, { exact: true });
+  await of("f").selectOption("condition");
+  await until(page, () => /"Hz"/.test(document.getElementById("source").value));
+  await of("measured_gain").selectOption("new");
+  await page.locator("#dialog input").first().fill("gain");
+  await page.locator("#dialog-actions button").first().click();
+  await of("u").locator('option[value="standard_uncertainty:gain"]').waitFor({ state: "attached" });
+  await of("u").selectOption("standard_uncertainty:gain");
+  await until(page, () => /"standard_uncertainty": "u"/.test(document.getElementById("source").value));
+  await of("model").selectOption("sim:gain");
+}
+
+const verdict = (page, what) => page.waitForFunction(what => !document.getElementById("case-verdict").hidden && new RegExp(what).test(document.getElementById("case-verdict").textContent) && document.getElementById("case-stop").hidden && document.getElementById("case-old").hidden, what, { timeout: 60000 });
+
+await test("a case from a pasted table: low-pass is found, and what is proposed becomes a candidate", async (page, folder) => {
+  await caseOf(page, response(20, 30));
+  assert.match(await text(page, "#case-said"), /20 rows.*remark was left out/);
+  await shot(page, "case-pasted", { fullPage: true });
+  await columnsSaid(page);
+  // without a candidate the diagnosis composes one
+  await verdict(page, "none of the candidates");
+  await shot(page, "case-composed", { fullPage: true });
+  const add = page.locator(".proposals button", { hasText: "Add as candidate" }).first();
+  const name = await page.locator(".proposals b").first().innerText();
+  await add.click();
+  await until(page, name => Boolean(JSON.parse(document.getElementById("source").value).effects[name]), name);
+  await verdict(page, name);
+  await page.getByLabel(`Remove ${name}`, { exact: true }).click();
+  for (const effect of ["offset", "scale-factor"]) {
+    await page.fill("#case-search", effect);
+    await page.locator("#case-catalogue label", { has: page.locator("b", { hasText: new RegExp(`^${effect}$`) }) }).locator("input").check();
+    await until(page, effect => (JSON.parse(document.getElementById("source").value).catalogue || []).includes(effect), effect);
+  }
+  await page.fill("#case-search", "low-pass");
+  await page.locator("#case-catalogue label", { has: page.locator("b", { hasText: /^low-pass$/ }) }).locator("input").check();
+  await verdict(page, "low-pass explains");
+  assert.match(await page.frameLocator("#report").locator("body").innerText(), /low-pass explains it/);
+  await shot(page, "case-low-pass", { fullPage: true });
+  // an own effect
+  await page.click("#case-add-effect");
+  await field(page, "Formula of gain in effect").fill("gain*(1 + d)");
+  await field(page, "standard uncertainty u of d").fill("0.02");
+  await verdict(page, "low-pass explains");
+  assert.deepEqual(JSON.parse(await source(page)).effects.effect.overrides, { gain: "gain*(1 + d)" });
+  await shot(page, "case-own", { fullPage: true });
+  await page.keyboard.press("Control+s");
+  await page.locator("#dialog input").fill("low.json");
+  await page.locator("#dialog-actions button").first().click();
+  await until(page, () => document.getElementById("state").textContent === "saved");
+  const told = JSON.parse(execFileSync(process.env.GUMPTION, ["gap", join(folder, "low.json"), "--format", "json", "--quiet"], { stdio: ["ignore", "pipe", "ignore"] }));
+  assert.deepEqual(told.verdict.effects, ["low-pass"]);
+});
+
+await test("a diagnosis tells its share and is stopped", async page => {
+  await until(page, () => document.getElementById("case-progress").value > 0 && !document.getElementById("case-stop").hidden);
+  await shot(page, "case-running");
+  await page.click("#case-stop");
+  await until(page, () => !document.getElementById("case-diagnose").hidden && /Stopped/.test(document.getElementById("case-state").textContent));
+  // a change does not begin it again
+  await answered(page, () => page.fill("#title", "Stopped"));
+  assert.equal(await page.locator("#case-progress").isHidden(), true);
+  await page.click("#case-diagnose");
+  await until(page, () => document.getElementById("case-progress").value > 0);
+  await page.click("#case-stop");
+}, { open: "case.json", files: [["models/gap/lateral_motion/case.json", "case.json"], ["models/gap/lateral_motion/data.csv", "data.csv"]] });
+
+await test("a ready-made effect that would explain the data is added by its button", async page => {
+  await until(page, () => document.querySelectorAll(".case-column").length === 5);
+  assert.equal(await page.locator("#case-file").inputValue(), "data.csv");
+  assert.equal(await page.getByLabel("Meaning of the column phi", { exact: true }).inputValue(), "value:phi");
+  const { catalogue } = JSON.parse(await source(page));
+  for (const name of catalogue.filter(name => !["phase-offset", "scale-factor"].includes(name))) {
+    await page.locator("#case-catalogue label", { has: page.locator("b", { hasText: new RegExp(`^${name}$`) }) }).locator("input").uncheck();
+    await until(page, name => !JSON.parse(document.getElementById("source").value).catalogue.includes(name), name);
+  }
+  const add = field(page, "Add low-pass as a candidate");
+  await add.waitFor({ timeout: 60000 });
+  await shot(page, "case-unlisted");
+  await add.click();
+  await verdict(page, "low-pass explains");
+  assert.deepEqual(JSON.parse(await source(page)).catalogue, [...catalogue.filter(name => ["phase-offset", "scale-factor"].includes(name)), "low-pass"]);
+}, { open: "case.json", files: [["models/gap/mems_low_pass/case.json", "case.json"], ["models/gap/mems_low_pass/data.csv", "data.csv"]] });
+
+await test("a case on a phone, dark, in German", async page => {
+  await caseOf(page, response(20, 30));
+  await columnsSaid(page, true);
+  await page.locator("#case-all").check();
+  await verdict(page, "erklärt sie");
+  const wide = await page.evaluate(() => document.documentElement.scrollWidth - innerWidth);
+  assert(wide <= 0, `sideways by ${wide}`);
+  const found = (await english(page)).filter(said => !/^low-pass/.test(said));
+  assert.deepEqual(found, []);
+  await page.evaluate(await readFile(axe, "utf8") + ";window.axe = axe;0");
+  const told = await page.evaluate(() => window.axe.run({ exclude: ["iframe"] }, { runOnly: ["wcag2a", "wcag2aa", "wcag21a", "wcag21aa", "wcag22aa", "best-practice"] }));
+  assert.deepEqual(told.violations.map(of => `${of.id}: ${of.nodes.slice(0, 3).map(node => node.html.slice(0, 160)).join("\n    ")}`), []);
+  await shot(page, "case-phone", { fullPage: true });
+}, { lang: "de", viewport: { width: 390, height: 844 }, colorScheme: "dark" });
+
 await test("speed with 20 inputs", async page => {
   const inputs = {}, terms = [];
   for (let number = 1; number <= 20; number++) {

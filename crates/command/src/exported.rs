@@ -78,6 +78,13 @@ fn command_of(kind: TextKind) -> Result<&'static str, NotExported> {
     })
 }
 
+/// Nothing can be shown of work that was stopped.
+pub(super) fn stopped_early() -> NotExported {
+    let message = "it was stopped early: it takes longer than the page waits; use the command line, \
+                   which has no limit";
+    NotExported::Stopped(message.to_owned())
+}
+
 /// A file's name without folder and extension.
 fn stem(path: &str) -> &str {
     let name = path.rsplit('/').next().unwrap_or(path);
@@ -138,9 +145,7 @@ impl CommandLine {
             _ => NotExported::Content(failure.to_string()),
         })?;
         if answered.exit == Exit::Interrupted {
-            let message = "it was stopped early: it takes longer than the page waits; use the \
-                           command line, which has no limit";
-            return Err(NotExported::Stopped(message.to_owned()));
+            return Err(stopped_early());
         }
         Ok(answered.answer)
     }

@@ -9,6 +9,7 @@ mod compare;
 mod completions;
 mod dcc;
 mod definition;
+mod diagnosed;
 mod diagnostics;
 mod diff;
 mod evaluated;
@@ -61,6 +62,7 @@ use gumption_live::Live;
 use gumption_units::all_nearest;
 
 pub use check::Mistake;
+pub use diagnosed::DiagnosedCase;
 pub use exit::{Exit, Failure};
 pub use exported::{ExportedAnswer, NotExported};
 pub use parted_run::{MergedRun, PartedMerging, PartedRun, PassOfRun};

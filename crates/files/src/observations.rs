@@ -97,12 +97,10 @@ pub(super) fn read(
     wanted: &[&str],
 ) -> Option<Observations> {
     let object = Object::new(log, "`observations`", &member.value, &member.key_span)?;
-    keys::check(&object, keys::OBSERVATIONS);
-    let file = object.required("file")?;
-    let name = object.text("file")?;
+    let are_known = keys::check(&object, keys::OBSERVATIONS);
+    let table = data(&object, are_known, folder, wanted);
     let columns = object.required("columns");
-    let (table, bytes) = table::read(log, folder, name, &file.value.span, Some(wanted))?;
-    let mut files = vec![(name.to_owned(), bytes)];
+    let (table, mut files) = table?;
     let columns = Object::new(log, "`columns`", &columns?.value, &member.key_span)?;
     let reader = ObservationsReader { log, folder, table: &table };
     let read: Vec<Option<ObservedColumn>> =
@@ -119,6 +117,42 @@ pub(super) fn read(
     };
     let order = order(&object, &table)?;
     Some(Observations { table, columns: read, replication, order, files })
+}
+
+/// The table of the data, from a file or from the case itself, and the content of the file;
+/// `are_known` says that no key is misspelt.
+#[allow(clippy::type_complexity)] // a table with the files that were read for it
+fn data(
+    object: &Object<'_>,
+    are_known: bool,
+    folder: Folder<'_>,
+    wanted: &[&str],
+) -> Option<(Table, Vec<(String, Vec<u8>)>)> {
+    let [first, second] = ["file", "values"];
+    match (object.get(first), object.get(second)) {
+        (Some(file), None) => {
+            let name = object.text(first)?;
+            let (table, bytes) =
+                table::read(object.log, folder, name, &file.value.span, Some(wanted))?;
+            Some((table, vec![(name.to_owned(), bytes)]))
+        }
+        (None, Some(values)) => {
+            table::of_lists(object.log, values, "`values`").map(|table| (table, Vec::new()))
+        }
+        (Some(_), Some(values)) => {
+            object.log.report(&values.key_span, DiagnosticKind::Exclusive { first, second });
+            None
+        }
+        // a misspelt key has been reported
+        (None, None) if !are_known => None,
+        (None, None) => {
+            let reason = "`observations` needs the measured data: `file`, the name of a table, or \
+                          `values`, the columns of one"
+                .to_owned();
+            object.report(DiagnosticKind::Observation { reason });
+            None
+        }
+    }
 }
 
 /// The column that says in which order the rows were taken, or when; none where no key names one.
@@ -386,3 +420,6 @@ fn is_covariance(rows: &[Vec<f64>]) -> bool {
     }
     largest > 0.0 && packed::cholesky(&mut lower, 0.0).is_ok()
 }
+
+#[cfg(test)]
+mod tests;

@@ -91,13 +91,13 @@ fn defined(log: &Collector, read: &EffectContext<'_>, data: &Table) -> bool {
 /// Whether an effect leaves the sim a value for every measured one.
 fn defined_with(log: &Collector, read: &EffectContext<'_>, placed: &Placed, data: &Table) {
     if let Some((row, output, why)) = undefined(read, Some(placed)) {
-        let line = data.place(row, 0);
-        let (line, _) = line.source.position(line.span.start);
+        let line_of = data.place(row, 0);
+        let (line, _) = line_of.source.position(line_of.span.start);
         let reason = format!(
             "gives no finite number for `{output}` at the conditions of row {} of the data (line \
              {line} of `{}`), its parameters at their medians{why}",
             row + 1,
-            data.source.name
+            line_of.source.name
         );
         let name = placed.candidate.effect.name.clone();
         log.report(&placed.place, DiagnosticKind::Effect { name, reason });

@@ -1,6 +1,9 @@
 //! A case with other data and one candidate fewer, as files of their own.
 
+use std::ops::Range;
+
 use super::CaseFile;
+use gumption_text::column_heading;
 use gumption_text::json::{self, Json, Member, Node};
 use gumption_text::{SourceText, bytes, table};
 
@@ -23,9 +26,39 @@ impl CaseFile {
         let whole = |what: &str| NotCopied(format!("{what} cannot be read again"));
         let root = json::parse(&self.source).map_err(|_| whole("the case"))?;
         let observations = member(&root, "observations").ok_or_else(|| whole("`observations`"))?;
-        let data = text_of(&observations.value, "file").ok_or_else(|| whole("`file`"))?;
         let columns = member(&observations.value, "columns").ok_or_else(|| whole("`columns`"))?;
-        let mut files = vec![("case.json".to_owned(), self.without(&root, without).into_bytes())];
+        let observed = self.case.model.outputs.iter().zip(&self.case.observed);
+        let observed = observed.filter(|(_, observed)| observed.is_some());
+        // the heading of each observed output with its values
+        let measured: Option<Vec<(String, &Vec<f64>)>> = observed
+            .zip(values)
+            .map(|((output, _), values)| {
+                let column = member(&columns.value, &output.quantity.name)?;
+                Some((text_of(&column.value, "value")?, values))
+            })
+            .collect();
+        let measured = measured.ok_or_else(|| whole("a column"))?;
+        let mut edits: Vec<(Range<usize>, String)> =
+            self.without(&root, without).into_iter().collect();
+        let data = text_of(&observations.value, "file");
+        if data.is_none() {
+            let lists = member(&observations.value, "values").map(|of| &of.value.value);
+            let Some(Json::Object(lists)) = lists else { return Err(whole("the data")) };
+            let headings: Vec<String> = lists.iter().map(|of| of.key.trim().to_owned()).collect();
+            for (name, values) in &measured {
+                let place = column_heading::place_of(&headings, name);
+                let place = place.ok_or_else(|| whole("a column"))?;
+                let list: Vec<String> = values.iter().map(f64::to_string).collect();
+                edits.push((lists[place].value.span.clone(), format!("[{}]", list.join(", "))));
+            }
+        }
+        // from the end, so that places before stay
+        edits.sort_by_key(|(range, _)| std::cmp::Reverse(range.start));
+        let mut text = self.source.text.clone();
+        for (range, by) in edits {
+            text.replace_range(range, &by);
+        }
+        let mut files = vec![("case.json".to_owned(), text.into_bytes())];
         for (name, content) in &self.files {
             let inside = std::path::Path::new(name)
                 .components()
@@ -36,7 +69,7 @@ impl CaseFile {
                      copied beside simulated data"
                 )));
             }
-            if name != &data {
+            if Some(name) != data.as_ref() {
                 files.push((name.clone(), content.clone()));
                 continue;
             }
@@ -44,14 +77,9 @@ impl CaseFile {
             let table = table::parse(&SourceText::new(name.as_str(), &text), None)
                 .map_err(|_| whole("the data"))?;
             let mut rows = table.rows.clone();
-            let observed = self.case.model.outputs.iter().zip(&self.case.observed);
-            let observed = observed.filter(|(_, observed)| observed.is_some());
-            for ((output, _), values) in observed.zip(values) {
-                let column = member(&columns.value, &output.quantity.name)
-                    .and_then(|member| text_of(&member.value, "value"))
-                    .and_then(|name| table.column(&name))
-                    .ok_or_else(|| whole("a column"))?;
-                for (row, value) in rows.iter_mut().zip(values) {
+            for (name, values) in &measured {
+                let column = table.column(name).ok_or_else(|| whole("a column"))?;
+                for (row, value) in rows.iter_mut().zip(*values) {
                     if let Some(cell) = row.get_mut(column) {
                         *cell = *value;
                     }
@@ -67,15 +95,13 @@ impl CaseFile {
         Ok(files)
     }
 
-    /// The case's text without one candidate.
-    fn without(&self, root: &Node, name: Option<&str>) -> String {
-        let text = &self.source.text;
-        let Some(name) = name else { return text.clone() };
+    /// What takes one candidate out of the case's text: a range, and what stands there instead.
+    fn without(&self, root: &Node, name: Option<&str>) -> Option<(Range<usize>, String)> {
+        let name = name?;
         let own: &[Member] = match member(root, "effects").map(|m| &m.value.value) {
             Some(Json::Object(members)) => members,
             _ => &[],
         };
-        let mut cut = text.clone();
         if let Some(place) = own.iter().position(|member| member.key == name) {
             let span = |member: &Member| member.key_span.start..member.value.span.end;
             // with the comma before, or the one after the first
@@ -84,25 +110,24 @@ impl CaseFile {
                 (None, Some(after)) => span(&own[place]).start..span(after).start,
                 (None, None) => span(&own[place]),
             };
-            cut.replace_range(range, "");
-        } else if let Some(catalogue) = member(root, "catalogue") {
-            let all = self
-                .case
-                .candidates
-                .iter()
-                .map(|candidate| self.case.listed_name(&candidate.effect.name));
-            let shipped = all.filter(|name| own.iter().all(|member| member.key != **name));
-            let mut names: Vec<String> = Vec::new();
-            for other in
-                shipped.filter(|shipped| *shipped != name).map(|shipped| format!("{shipped:?}"))
-            {
-                if !names.contains(&other) {
-                    names.push(other);
-                }
-            }
-            cut.replace_range(catalogue.value.span.clone(), &format!("[{}]", names.join(", ")));
+            return Some((range, String::new()));
         }
-        cut
+        let catalogue = member(root, "catalogue")?;
+        let all = self
+            .case
+            .candidates
+            .iter()
+            .map(|candidate| self.case.listed_name(&candidate.effect.name));
+        let shipped = all.filter(|name| own.iter().all(|member| member.key != **name));
+        let mut names: Vec<String> = Vec::new();
+        for other in
+            shipped.filter(|shipped| *shipped != name).map(|shipped| format!("{shipped:?}"))
+        {
+            if !names.contains(&other) {
+                names.push(other);
+            }
+        }
+        Some((catalogue.value.span.clone(), format!("[{}]", names.join(", "))))
     }
 }
 

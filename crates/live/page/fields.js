@@ -82,7 +82,7 @@ export class Fields {
       // what need not be said is not said; everything else asks for a value
       const isThere = field.written !== undefined && field.written !== "";
       field.written = "";
-      if (field.isOptional || path[0] !== "inputs") {
+      if (field.isOptional || !["inputs", "effects"].includes(path[0])) {
         if (isThere) this.page.edit([{ path: this.whole(path), remove: true }], change);
       } else {
         this.page.edit([{ path, value: kind === "list" ? [] : kind === "text" ? "" : null }], change);

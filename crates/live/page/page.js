@@ -1,7 +1,9 @@
 // The page: one open file, its form and its text, and what follows from it.
 
 import { Answers } from "./answers.js";
+import { CaseForm } from "./case.js";
 import { Code } from "./code.js";
+import { Diagnosis } from "./diagnosis.js";
 import { Dialog } from "./dialog.js";
 import { Document } from "./document.js";
 import { Equations } from "./equations.js";
@@ -42,7 +44,9 @@ class Page {
     this.source = new Code(this.element("source-box"));
     this.form = new Form(this);
     // the forms of each kind of file; files of other kinds are edited as text
-    this.forms = { model: [this.form] };
+    this.caseForm = new CaseForm(this);
+    this.diagnosis = new Diagnosis(this);
+    this.forms = { model: [this.form], case: [this.form, this.caseForm] };
     this.language = pickLanguage(program.hello.lang);
     this.words = this.language === "de" ? de : en;
     this.hasFile = false;
@@ -174,6 +178,9 @@ class Page {
     this.isWorking = false;
   }
 
+  /** Whether what was answered last is the text with all changes. */
+  get isSettled() { return !this.isWorking && this.answeredText === this.document.text; }
+
   /** What was typed last is on its way into the text: until it is there. */
   async settled() {
     for (let turn = 0; this.isWorking && turn < 200; turn++) await new Promise(done => setTimeout(done, 10));
@@ -261,7 +268,9 @@ class Page {
   answer(found, request) {
     this.isBegun = this.#isBegun(found);
     if (this.isBegun) found = { ...found, diagnostics: [] };
+    if (found.kind === "case") found = { ...found, diagnostics: this.caseForm.calm(found) };
     this.found = found;
+    this.answeredText = request.text;
     this.isUnanswered = false;
     const force = this.force && request.text === this.document.text;
     if (force) this.force = false;
@@ -310,6 +319,7 @@ class Page {
       element.setAttribute("aria-label", this.words[element.dataset.wLabel]);
       if (element.tagName === "BUTTON") element.title = this.words[element.dataset.wLabel];
     }
+    for (const element of document.querySelectorAll("[data-w-placeholder]")) element.placeholder = this.words[element.dataset.wPlaceholder];
     for (const element of document.querySelectorAll("[data-w-title]")) element.title = this.words[element.dataset.wTitle];
     this.element("language").value = this.language;
   }

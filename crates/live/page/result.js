@@ -21,6 +21,7 @@ export class Result {
     this.element("box-audit").hidden = true;
     this.element("results").hidden = true;
     this.#bar();
+    this.page.diagnosis.clear();
   }
 
   /** What is no answer to the text as it stands is grey as a whole, and says what it belongs to. */
@@ -54,6 +55,7 @@ export class Result {
   results(found) {
     const { words } = this;
     this.element("report").hidden = true;
+    this.page.diagnosis.clear();
     const has = found.results !== undefined;
     const results = this.element("results");
     this.isBefore = !has;
@@ -193,6 +195,8 @@ export class Result {
     this.hasResults = false;
     this.element("output-tabs").hidden = true;
     this.element("nothing").hidden = true;
+    if (found.kind === "case") return this.page.diagnosis.show(found, request);
+    this.page.diagnosis.clear();
     const frame = this.element("report");
     if (["other", "costs", "result"].includes(found.kind)) { frame.hidden = true; return; }
     frame.hidden = false;
@@ -203,7 +207,7 @@ export class Result {
     if (this.reported === text || found.diagnostics.length) return;
     this.reporter = setTimeout(async () => {
       try {
-        const address = await this.page.program.page({ path, text });
+        const { address } = await this.page.program.page({ path, text });
         if (text !== this.page.document.text) return;
         this.reported = text;
         frame.src = address;

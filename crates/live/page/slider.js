@@ -36,7 +36,7 @@ export class Slider {
     }
     if (!this.#now) this.chosen = this.numbers.length ? this.numbers[0].key : null;
     if (this.chosen !== null && this.choice.value !== this.chosen) this.choice.value = this.chosen;
-    this.slide.disabled = this.chosen === null;
+    this.slide.closest(".slider").hidden = this.chosen === null;
     const now = this.#now;
     this.shown.textContent = now ? words.number(now.cell.raw) : "";
     if (now && !this.isMoving) this.#range(now);

@@ -22,6 +22,9 @@ function secretOfPage() {
   } catch { return given; }
 }
 
+// how often the share of long work is asked for
+const SHARE = 400;
+
 /** Finds out what there is. */
 export async function connect() {
   try {
@@ -57,16 +60,26 @@ class Server {
     return (await this.#post(`call/${name}${of}`, JSON.stringify(request), signal)).json();
   }
 
-  async ask(name, request) {
-    return (await this.#post(name, JSON.stringify(request))).json();
+  async ask(name, request, signal) {
+    return (await this.#post(name, JSON.stringify(request), signal)).json();
   }
 
   async export(request) {
     return (await this.#post("export", JSON.stringify(request))).blob();
   }
 
-  async page(request) {
-    return (await this.ask("page", request)).address;
+  /** The page of a text: its address, and of a case the answer; `told` is told the share that is done. */
+  async page(request, { signal, told } = {}) {
+    const progress = `${Date.now()}-${Math.random()}`;
+    const look = told && setInterval(async () => {
+      try {
+        const { share } = await (await fetch(`api/progress/${progress}`, { signal })).json();
+        if (share !== null) told(share);
+      } catch { /* the work itself says what is wrong */ }
+    }, SHARE);
+    try {
+      return await this.ask("page", { ...request, progress }, signal);
+    } finally { clearInterval(look); }
   }
 
   watch(changed, lost) {
@@ -79,17 +92,15 @@ class Server {
   hold() {}
 }
 
-class Alone {
-  static async load() {
-    const alone = new Alone();
-    alone.hello = { version: "", lang: null, folder: "" };
-    alone.hasFolder = false;
-    alone.worker = new Worker("assets/worker.js");
-    alone.waiting = new Map();
-    alone.number = 0;
-    alone.worker.onmessage = ({ data }) => {
-      const of = alone.waiting.get(data.number);
-      alone.waiting.delete(data.number);
+/** The program in a worker, which does one thing after the other. */
+class Module {
+  constructor() {
+    this.waiting = new Map();
+    this.number = 0;
+    this.worker = new Worker("assets/worker.js");
+    this.worker.onmessage = ({ data }) => {
+      const of = this.waiting.get(data.number);
+      this.waiting.delete(data.number);
       if (!of) return;
       if (data.status === 0) of.resolve(data.answer);
       else {
@@ -98,23 +109,41 @@ class Alone {
         of.reject(new Refused(data.status === 1 ? 400 : 500, told));
       }
     };
-    alone.worker.onerror = event => {
-      for (const of of alone.waiting.values()) of.reject(new Refused(500, { error: event.message }));
-      alone.waiting.clear();
-    };
-    return alone;
+    this.worker.onerror = event => this.#refuse(new Refused(500, { error: event.message }));
   }
 
-  #send(message, transfer = []) {
+  #refuse(error) {
+    for (const of of this.waiting.values()) of.reject(error);
+    this.waiting.clear();
+  }
+
+  send(message) {
     const number = ++this.number;
     return new Promise((resolve, reject) => {
       this.waiting.set(number, { resolve, reject });
-      this.worker.postMessage({ ...message, number }, transfer);
+      this.worker.postMessage({ ...message, number });
     });
   }
 
+  /** Ends it in the middle of its work. */
+  end() {
+    this.worker.terminate();
+    this.#refuse(new DOMException("", "AbortError"));
+  }
+}
+
+class Alone {
+  static async load() {
+    const alone = new Alone();
+    alone.hello = { version: "", lang: null, folder: "" };
+    alone.hasFolder = false;
+    alone.held = new Map();
+    alone.module = new Module();
+    return alone;
+  }
+
   async call(name, request, { signal } = {}) {
-    const answer = await this.#send({ name, request: JSON.stringify(request) });
+    const answer = await this.module.send({ name, request: JSON.stringify(request) });
     if (signal && signal.aborted) throw new DOMException("", "AbortError");
     return JSON.parse(answer);
   }
@@ -130,14 +159,26 @@ class Alone {
     return new Blob([bytes]);
   }
 
-  async page({ text, path }) {
-    const { html } = await this.call("page", { text, name: path || "" });
-    return URL.createObjectURL(new Blob([html], { type: "text/html" }));
+  /** The page of a text, made in a module of its own: it takes long, and can be ended. */
+  async page({ text, path }, { signal } = {}) {
+    const module = new Module();
+    const end = () => module.end();
+    if (signal) signal.addEventListener("abort", end);
+    try {
+      for (const [hold, bytes] of this.held) await module.send({ hold, bytes });
+      const made = await module.send({ name: "page", request: JSON.stringify({ text, name: path || "" }) });
+      const { html, answer } = JSON.parse(made);
+      return { address: URL.createObjectURL(new Blob([html], { type: "text/html" })), answer };
+    } finally {
+      if (signal) signal.removeEventListener("abort", end);
+      module.end();
+    }
   }
 
   watch() {}
 
   async hold(name, bytes) {
-    return this.#send({ hold: name, bytes }, [bytes]);
+    this.held.set(name, bytes);
+    return this.module.send({ hold: name, bytes });
   }
 }

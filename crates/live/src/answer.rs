@@ -9,10 +9,10 @@ use gumption_engine::propagate::{
     Control, Evaluation, convergence, evaluate, histograms, warnings,
 };
 use gumption_engine::task::{MethodChoice, StatementMethod, Task, Trials};
-use gumption_files::{FileReader, ModelFile, TextKind};
+use gumption_files::{CaseFile, FileReader, ModelFile, TextKind};
 use gumption_foreign::{ComparisonOptions, read_comparison_text};
 use gumption_report::{EvaluationReport, FigureSize, PageChoice, Provenance, Shown, page_parts};
-use gumption_text::Diagnostics;
+use gumption_text::{Diagnostics, FileSource};
 use jsonc_parser::ast::Value;
 use serde::Deserialize;
 use serde_json::{Value as Json, json};
@@ -20,7 +20,7 @@ use std::path::Path;
 
 use crate::edit::{Edit, edited};
 use crate::tree::{self, path_of};
-use crate::{LiveError, diagnostics, inputs, limited, open, outputs};
+use crate::{LiveError, diagnostics, inputs, limited, open, outputs, table};
 use gumption_report::words::Language;
 
 /// Maximum number of trials over all rows, up to which the page refines in the background. The
@@ -67,6 +67,7 @@ pub(crate) struct AnswerRequest {
 /// The contents of a text and its results.
 pub(crate) fn answer(
     files: FileReader<'_>,
+    folder: &dyn FileSource,
     asked: &AnswerRequest,
     stop: &Arc<AtomicBool>,
 ) -> Result<Json, LiveError> {
@@ -87,10 +88,17 @@ pub(crate) fn answer(
         TextKind::Model => files.model_text(name, text, Path::new(""), &[]),
         // their pages evaluate them and report errors that only the evaluation finds
         other => {
-            let found = checked(files, other, name, text).err();
-            answer["diagnostics"] =
-                found.map_or(json!([]), |found| diagnostics::list(text, &found));
+            let found = checked(files, other, name, text);
+            if let Err(found) = &found {
+                answer["diagnostics"] = diagnostics::list(text, found);
+            }
             answer["content"] = root.as_ref().map_or(Json::Null, |root| tree::content(bare, root));
+            // the model of a case has the fields of any model
+            if let Some(root) = root.as_ref().filter(|_| kind == TextKind::Case) {
+                let case = found.as_ref().ok().and_then(Option::as_ref);
+                fields(&mut answer, bare, root, case.map(|file| &file.case.task));
+                answer["data"] = table::of_case(bare, root, folder);
+            }
             return Ok(answer);
         }
     };
@@ -102,15 +110,7 @@ pub(crate) fn answer(
         }
     };
     if let Some(root) = &root {
-        let found = stated(bare, root, file.map(|file| &file.task));
-        merge(&mut answer, found);
-        // names without a meaning need no search if there are none
-        let missing = if file.is_some() { Vec::new() } else { missing(root) };
-        if let Some(diagnostics) = answer["diagnostics"].as_array_mut() {
-            let points = open::points(bare, root, &missing, diagnostics);
-            answer["open"] = points;
-        }
-        answer["missing"] = json!(missing);
+        fields(&mut answer, bare, root, file.map(|file| &file.task));
     }
     if let Some(file) = file {
         match results(file, asked, stop) {
@@ -121,23 +121,37 @@ pub(crate) fn answer(
     Ok(answer)
 }
 
-/// The errors of a text that is not a model.
+/// Adds the contents of a model, what it still lacks, and names that its equations use but nothing
+/// defines.
+fn fields(answer: &mut Json, text: &str, root: &Value<'_>, task: Option<&Task>) {
+    merge(answer, stated(text, root, task));
+    // names without a meaning need no search if there are none
+    let missing = if task.is_some() { Vec::new() } else { missing(root) };
+    if let Some(diagnostics) = answer["diagnostics"].as_array_mut() {
+        let points = open::points(text, root, &missing, diagnostics);
+        answer["open"] = points;
+    }
+    answer["missing"] = json!(missing);
+}
+
+/// The errors of a text that is not a model; the case if it is one.
 fn checked(
     files: FileReader<'_>,
     kind: TextKind,
     name: &str,
     text: &str,
-) -> Result<(), Diagnostics> {
+) -> Result<Option<CaseFile>, Diagnostics> {
     let folder = Path::new("");
     match kind {
-        TextKind::Case => files.case_text(name, text, folder).map(drop),
+        TextKind::Case => return files.case_text(name, text, folder).map(Some),
         TextKind::Certificate => files.certificate_text(name, text, folder).map(drop),
         TextKind::Comparison => {
             read_comparison_text(name, text, ComparisonOptions::default()).map(drop)
         }
         TextKind::Recipe | TextKind::Costs => files.check_text(name, text, folder).map(drop),
         _ => Ok(()),
-    }
+    }?;
+    Ok(None)
 }
 
 fn merge(into: &mut Json, from: Json) {

@@ -24,6 +24,7 @@ mod outputs;
 pub mod page;
 mod quantity;
 mod reshape;
+mod table;
 #[cfg(test)]
 mod tests;
 mod tree;
@@ -97,6 +98,8 @@ impl<'a> Live<'a> {
     /// | `new` | `example`, `template` or nothing | `text` |
     /// | `examples` | | `large`, `fields`: starting points with titles and sources by field of work |
     /// | `kinds` | | distributions with their keys, ways in which inputs are known, units |
+    /// | `effects` | | the ready-made effects of cases |
+    /// | `table` | `text` | headings and numbers of a pasted table |
     /// | `contents` | `file` | `columns`, `quantities` or `outputs` of a file that an input can name |
     /// | `import` | `name`, `base64`, `options`, `lang` | `sheet`: its cells; `text`, `notes`; or `questions`, `mistakes` |
     ///
@@ -111,7 +114,7 @@ impl<'a> Live<'a> {
     ) -> Result<String, LiveError> {
         let files = FileReader::new(self.catalogue).reading(folder);
         let answer = match name {
-            "answer" => answer::answer(files, &asked(request)?, stop)?,
+            "answer" => answer::answer(files, folder, &asked(request)?, stop)?,
             "audit" => audit::audited(files, &asked(request)?, stop)?,
             "edit" => {
                 let asked: edit_call::EditRequest = asked(request)?;
@@ -123,6 +126,8 @@ impl<'a> Live<'a> {
             "examples" => gallery::list(self),
             "kinds" => kinds::all(),
             "contents" => named::contents(files, folder, &asked(request)?)?,
+            "effects" => json!(gumption_files::catalogue().effects),
+            "table" => table::pasted(&asked(request)?)?,
             "import" => import::imported(&asked(request)?)?,
             other => return Err(LiveError::Unknown(other.to_owned())),
         };

@@ -59,6 +59,21 @@ impl fmt::Debug for Exported {
     }
 }
 
+/// A page that shows what a text says, and what a program can do with.
+#[derive(Clone, PartialEq, Eq)]
+pub struct EvaluatedPage {
+    /// The page as HTML.
+    pub html: String,
+    /// The answer for programs as JSON, of texts whose page offers changes.
+    pub answer: Option<String>,
+}
+
+impl fmt::Debug for EvaluatedPage {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(f, "EvaluatedPage({} bytes)", self.html.len())
+    }
+}
+
 /// Why there is no answer.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum Refusal {
@@ -116,11 +131,16 @@ pub trait Answers: Send + Sync + 'static {
         stop: &Arc<AtomicBool>,
     ) -> Result<Exported, Refusal>;
 
-    /// Evaluates a text and writes an HTML page.
+    /// Evaluates a text and writes an HTML page; long work tells `told` the share that is done.
     ///
     /// # Errors
     /// Why there is no page.
-    fn page(&self, file: &TextOfFile, stop: &Arc<AtomicBool>) -> Result<String, Refusal>;
+    fn page(
+        &self,
+        file: &TextOfFile,
+        told: &(dyn Fn(f64) + Sync),
+        stop: &Arc<AtomicBool>,
+    ) -> Result<EvaluatedPage, Refusal>;
 
     /// Writes a file at a path, new or as a replacement; completely or not at all.
     ///

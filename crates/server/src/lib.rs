@@ -13,6 +13,7 @@ mod lane;
 mod listing;
 mod memory;
 mod named_file;
+mod progress;
 mod routes;
 mod saving;
 mod server;
@@ -22,7 +23,9 @@ mod tests;
 mod token;
 mod watch;
 
-pub use answers::{Answers, Exported, FileDescription, Refusal, ServedAsset, TextOfFile};
+pub use answers::{
+    Answers, EvaluatedPage, Exported, FileDescription, Refusal, ServedAsset, TextOfFile,
+};
 pub use folder::{OpenedFolder, Unopened};
 pub use named_file::NamedFiles;
 pub use server::{LocalServer, RequestTimes, ServerOptions};

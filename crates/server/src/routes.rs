@@ -14,9 +14,10 @@ use axum::routing::{get, post};
 use percent_encoding::{AsciiSet, NON_ALPHANUMERIC, utf8_percent_encode};
 use serde::de::DeserializeOwned;
 use serde::{Deserialize, Serialize};
+use serde_json::value::RawValue;
 use tokio::time::timeout;
 
-use super::answers::{Refusal, ServedAsset, TextOfFile};
+use super::answers::{EvaluatedPage, Refusal, ServedAsset, TextOfFile};
 use super::doorkeeper::{self, POLICY_OF_REPORTS, query};
 use super::events::events;
 use super::folder::{Unopened, read};
@@ -46,6 +47,7 @@ pub(crate) fn routes(house: &Arc<House>) -> Router {
         .route("/api/export", post(export))
         .route("/api/page", post(page))
         .route("/api/page/{name}", get(shown))
+        .route("/api/progress/{name}", get(progress))
         .route("/api/events", get(events))
         .fallback(async || refusal(StatusCode::NOT_FOUND, "there is nothing at this address"))
         .layer(DefaultBodyLimit::max(MOST_BODY))
@@ -341,10 +343,20 @@ fn disposition(name: &str) -> HeaderValue {
 struct ToShow {
     path: Option<String>,
     text: String,
+    /// A name by which the share that is done can be asked for.
+    #[serde(default)]
+    progress: Option<String>,
+}
+
+#[derive(Serialize)]
+struct PageToShow {
+    html: String,
+    address: String,
+    answer: Option<Box<RawValue>>,
 }
 
 async fn page(State(house): State<Arc<House>>, request: Request) -> Response {
-    let ToShow { path, text } = match request_of(&house, request).await {
+    let ToShow { path, text, progress } = match request_of(&house, request).await {
         Ok(wanted) => wanted,
         Err(refused) => return refused,
     };
@@ -353,12 +365,22 @@ async fn page(State(house): State<Arc<House>>, request: Request) -> Response {
             Ok(file) => file,
             Err(error) => return Ok(error.into_response()),
         };
-        let html = house.answers.page(&file, stop)?;
-        let name = house.pages.keep(&html).map_err(|error| Refusal::Internal(error.to_string()))?;
+        let work = house.progress.begin(progress);
+        let EvaluatedPage { html, answer } =
+            house.answers.page(&file, &|share| work.tell(share), stop)?;
+        let internal = |error: String| Refusal::Internal(error);
+        let name = house.pages.keep(&html).map_err(|error| internal(error.to_string()))?;
         let address = format!("api/page/{name}");
-        Ok::<_, Refusal>(json(&serde_json::json!({ "html": html, "address": address })))
+        let answer = answer.map(RawValue::from_string).transpose();
+        let answer = answer.map_err(|error| internal(error.to_string()))?;
+        Ok::<_, Refusal>(json(&PageToShow { html, address, answer }))
     };
     work(&house.makings, &house, make).await
+}
+
+/// The share that is done of a page that is being made; null where there is none of that name.
+async fn progress(State(house): State<Arc<House>>, Path(name): Path<String>) -> Response {
+    json(&serde_json::json!({ "share": house.progress.of(&name) }))
 }
 
 async fn shown(State(house): State<Arc<House>>, Path(name): Path<String>) -> Response {

@@ -15,6 +15,7 @@ use super::connections::Connections;
 use super::folder::OpenedFolder;
 use super::lane::{Lane, Limits};
 use super::memory;
+use super::progress::Progress;
 use super::routes::routes;
 use super::shown_pages::ShownPages;
 use super::token::Token;
@@ -125,6 +126,7 @@ pub(crate) struct House {
     pub(crate) disk: Lane,
     pub(crate) bodies: Semaphore,
     pub(crate) pages: ShownPages,
+    pub(crate) progress: Progress,
 }
 
 impl House {
@@ -186,6 +188,7 @@ impl LocalServer {
             disk: Lane::new(DISK),
             bodies: Semaphore::new(BODIES),
             pages: ShownPages::default(),
+            progress: Progress::default(),
         };
         Ok(Self { listener, house: Arc::new(house), launch: text })
     }

@@ -8,8 +8,8 @@ use std::sync::atomic::{AtomicBool, Ordering};
 use std::time::Duration;
 
 use crate::{
-    Answers, Exported, FileDescription, LocalServer, NamedFiles, OpenedFolder, Refusal,
-    RequestTimes, ServedAsset, ServerOptions, TextOfFile,
+    Answers, EvaluatedPage, Exported, FileDescription, LocalServer, NamedFiles, OpenedFolder,
+    Refusal, RequestTimes, ServedAsset, ServerOptions, TextOfFile,
 };
 
 /// Works until it is stopped, or, where the call says so, far longer.
@@ -57,8 +57,13 @@ impl Answers for Slow {
         Err(Refusal::Stopped("it was stopped".to_owned()))
     }
 
-    fn page(&self, _: &TextOfFile, _: &Arc<AtomicBool>) -> Result<String, Refusal> {
-        Ok(String::new())
+    fn page(
+        &self,
+        _: &TextOfFile,
+        _: &(dyn Fn(f64) + Sync),
+        _: &Arc<AtomicBool>,
+    ) -> Result<EvaluatedPage, Refusal> {
+        Ok(EvaluatedPage { html: String::new(), answer: None })
     }
 
     fn replace(&self, _: &Path, _: &[u8]) -> io::Result<()> {

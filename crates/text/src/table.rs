@@ -1,4 +1,4 @@
-//! Tables of numbers from CSV files, with the position of every cell.
+//! Tables of numbers from CSV files and from lists in a file, with the position of every cell.
 
 use std::ops::Range;
 use std::sync::Arc;
@@ -6,6 +6,8 @@ use std::sync::Arc;
 use super::date::Day;
 use super::diagnostics::Collector;
 use super::folder::Folder;
+use super::json::{Json, Member, Node};
+use super::object::Object;
 use super::source::{Place, SourceText};
 use super::value_text::power_of_last_digit;
 use super::{DiagnosticKind, bytes, column_heading};
@@ -22,7 +24,9 @@ const MOST_FAULTS: usize = 2000;
 /// A table: column names and rows of numbers.
 #[derive(Clone, Debug)]
 pub struct Table {
-    /// The text of the table.
+    /// What messages call it.
+    pub name: String,
+    /// The text that holds the table.
     pub source: Arc<SourceText>,
     /// The names in the header.
     pub columns: Vec<String>,
@@ -33,9 +37,16 @@ pub struct Table {
     pub last_digits: Vec<Option<i32>>,
     /// Whether each column has dates, of which the values are numbers of days.
     pub are_days: Vec<bool>,
-    /// The position of each row in the text.
-    lines: Vec<Range<usize>>,
-    separator: Separator,
+    places: Places,
+}
+
+/// Where the cells of a table are in the text that holds it.
+#[derive(Clone, Debug)]
+enum Places {
+    /// Each row is a line, its cells between separators.
+    Lines(Vec<Range<usize>>, Separator),
+    /// Each column is a list; the position of each cell, by column.
+    Lists(Vec<Vec<Range<usize>>>),
 }
 
 impl Table {
@@ -54,7 +65,7 @@ impl Table {
             return format!(
                 "`{}` has more than one column `{name}`: {}; write the full header of one, with \
                  its unit",
-                self.source.name,
+                self.name,
                 gumption_units::listed(&alike, " and ")
             );
         }
@@ -63,13 +74,22 @@ impl Table {
             Some(near) => format!("; did you mean `{near}`?"),
             None => format!("; its columns are {}", self.columns.join(", ")),
         };
-        format!("`{}` has no column `{name}`{hint}", self.source.name)
+        format!("`{}` has no column `{name}`{hint}", self.name)
     }
 
     /// The place of a cell.
     pub fn place(&self, row: usize, column: usize) -> Place {
-        let span = self.lines.get(row).cloned().unwrap_or(0..0);
-        place_of_cell(&Place { source: self.source.clone(), span }, column, self.separator)
+        let source = self.source.clone();
+        match &self.places {
+            Places::Lines(lines, separator) => {
+                let span = lines.get(row).cloned().unwrap_or(0..0);
+                place_of_cell(&Place { source, span }, column, *separator)
+            }
+            Places::Lists(lists) => {
+                let span = lists.get(column).and_then(|cells| cells.get(row)).cloned();
+                Place { source, span: span.unwrap_or(0..0) }
+            }
+        }
     }
 }
 
@@ -326,10 +346,102 @@ fn parse_dated(
         kinds.push((at_line(header_line), DiagnosticKind::Table { reason }));
     }
     if kinds.is_empty() {
-        Ok(Table { source: source.clone(), columns, rows, last_digits, are_days, lines, separator })
+        let (name, source) = (source.name.clone(), source.clone());
+        let places = Places::Lines(lines, separator);
+        Ok(Table { name, source, columns, rows, last_digits, are_days, places })
     } else {
         Err(kinds)
     }
+}
+
+/// Reads a table whose columns are the members of an object, each a list of numbers, and reports its
+/// errors. Messages call it by the key of the object.
+pub fn of_lists(log: &Collector, member: &Member, what: &'static str) -> Option<Table> {
+    let object = Object::new(log, what, &member.value, &member.key_span)?;
+    let too_many = |what, found, most| {
+        if found > most {
+            object.report(DiagnosticKind::TooMany { what, found, most });
+        }
+        found > most
+    };
+    let members = object.members();
+    if members.is_empty() {
+        object.report(DiagnosticKind::NoValues { name: member.key.clone() });
+        return None;
+    }
+    if too_many("columns of a table", members.len(), MOST_COLUMNS) {
+        return None;
+    }
+    let lists: Option<Vec<&[Node]>> = members.iter().map(|of| object.list(&of.key)).collect();
+    let lists = lists?;
+    let mut is_right = true;
+    let mut of_table = |place: &Range<usize>, reason: String| {
+        log.report(place, DiagnosticKind::Table { reason });
+        is_right = false;
+    };
+    let count = lists.first().map_or(0, |list| list.len());
+    let columns: Vec<String> = members.iter().map(|of| of.key.trim().to_owned()).collect();
+    for (place, (of, list)) in members.iter().zip(&lists).enumerate() {
+        let name = &columns[place];
+        if name.is_empty() {
+            of_table(&of.key_span, "a column has no name".to_owned());
+        } else if columns[..place].contains(name) {
+            of_table(&of.key_span, format!("two columns have the name `{name}`"));
+        } else if list.is_empty() {
+            of_table(&of.value.span, format!("the column `{name}` has no values"));
+        } else if list.len() != count && count > 0 {
+            let (first, found) = (&columns[0], list.len());
+            let reason = format!(
+                "the column `{name}` has {found} values, but `{first}` has {count}; all columns \
+                 have the same number of values"
+            );
+            of_table(&of.value.span, reason);
+        }
+    }
+    if too_many("rows of a table", count, MOST_ROWS) {
+        return None;
+    }
+    let mut last_digits = Vec::with_capacity(lists.len());
+    let mut values: Vec<Vec<f64>> = Vec::with_capacity(lists.len());
+    for (name, list) in columns.iter().zip(&lists) {
+        let mut finest: Option<i32> = None;
+        let mut column = Vec::with_capacity(list.len());
+        for (row, node) in list.iter().enumerate() {
+            match (&node.value, node.number()) {
+                (Json::Number(text), Some(value)) => {
+                    let last = power_of_last_digit(text);
+                    finest = Some(finest.map_or(last, |known| known.min(last)));
+                    column.push(value);
+                }
+                (other, _) => {
+                    let found = match other {
+                        Json::Null => String::new(),
+                        Json::Text(text) => text.clone(),
+                        other => other.kind().to_owned(),
+                    };
+                    let (row, column) = (row + 1, name.clone());
+                    is_right = false;
+                    log.report(&node.span, DiagnosticKind::Cell { row, column, found });
+                }
+            }
+        }
+        last_digits.push(finest);
+        values.push(column);
+    }
+    if !is_right {
+        return None;
+    }
+    let rows = (0..count).map(|row| values.iter().map(|column| column[row]).collect()).collect();
+    let spans = |list: &&[Node]| list.iter().map(|node| node.span.clone()).collect();
+    Some(Table {
+        name: member.key.clone(),
+        source: log.source.clone(),
+        columns,
+        rows,
+        last_digits,
+        are_days: vec![false; lists.len()],
+        places: Places::Lists(lists.iter().map(spans).collect()),
+    })
 }
 
 /// The position of a cell in its line, or of the whole line if quotes make that uncertain. An empty

@@ -7,6 +7,7 @@ use base64::Engine;
 use base64::engine::general_purpose::STANDARD;
 use gumption::Application;
 use gumption_command::{ExportedAnswer, GivenFile, NotExported};
+use gumption_files::TextKind;
 use gumption_live::{HeldFiles, LiveError};
 use serde::Deserialize;
 use serde::de::DeserializeOwned;
@@ -88,8 +89,7 @@ pub(crate) fn answer(
         }
         "page" => {
             let Text { text, name, .. } = asked(request)?;
-            let page = exported(&program, text, name, "html", held)?;
-            Ok(json!({ "html": String::from_utf8_lossy(&page.content) }).to_string())
+            page(&program, text, name, held)
         }
         other => {
             // the request holds the text, in which quotes are escaped
@@ -119,19 +119,46 @@ fn exported(
     format: &str,
     held: &[(String, Vec<u8>)],
 ) -> Result<ExportedAnswer, Fault> {
-    let held = HeldFiles(held.to_vec()).named_in(&text).0;
-    let given = GivenFile { name, text, held, ..GivenFile::default() };
-    let stop = Arc::new(AtomicBool::new(false));
+    let given = given(text, name, held);
     let own = given.text.clone();
-    program.command_line().exported(given, format, &stop).map_err(|why| match why {
+    let made = program.command_line().exported(given, format, &Arc::default());
+    made.map_err(|why| fault(why, &own))
+}
+
+/// The page of a text; that of a case with the answer for programs.
+fn page(
+    program: &Application,
+    text: String,
+    name: String,
+    held: &[(String, Vec<u8>)],
+) -> Result<String, Fault> {
+    if TextKind::of(&text) == TextKind::Case {
+        let given = given(text, name, held);
+        let found = program.command_line().diagnosed(&given, &|_| {}, &Arc::default());
+        let found = found.map_err(|why| fault(why, &given.text))?;
+        let answer: Value =
+            serde_json::from_str(&found.json).map_err(|error| Fault::Program(error.to_string()))?;
+        return Ok(json!({ "html": found.html, "answer": answer }).to_string());
+    }
+    let page = exported(program, text, name, "html", held)?;
+    Ok(json!({ "html": String::from_utf8_lossy(&page.content) }).to_string())
+}
+
+fn given(text: String, name: String, held: &[(String, Vec<u8>)]) -> GivenFile {
+    let held = HeldFiles(held.to_vec()).named_in(&text).0;
+    GivenFile { name, text, held, ..GivenFile::default() }
+}
+
+fn fault(why: NotExported, text: &str) -> Fault {
+    match why {
         NotExported::Mistakes(found) => {
             let message = found.0.iter().map(ToString::to_string).collect::<Vec<_>>().join("\n");
-            Fault::Mistakes(gumption_live::mistakes(&own, &found), message)
+            Fault::Mistakes(gumption_live::mistakes(text, &found), message)
         }
         NotExported::System(message) => Fault::Program(message),
         NotExported::Format(message)
         | NotExported::Content(message)
         | NotExported::Stopped(message) => Fault::Request(message),
         _ => Fault::Program("nothing was exported".to_owned()),
-    })
+    }
 }

@@ -13,7 +13,7 @@ use gumption_engine::parallel::Pool;
 use gumption_files::TextKind;
 use gumption_live::LiveError;
 use gumption_server::{
-    Answers, Exported, FileDescription, NamedFiles, Refusal, ServedAsset, TextOfFile,
+    Answers, EvaluatedPage, Exported, FileDescription, NamedFiles, Refusal, ServedAsset, TextOfFile,
 };
 use gumption_text::FileSource;
 
@@ -56,21 +56,29 @@ impl PageAnswers {
         format: &str,
         stop: &Arc<AtomicBool>,
     ) -> Result<ExportedAnswer, Refusal> {
-        let TextOfFile { path, text, folder, root } = file.clone();
-        let given =
-            GivenFile { name: path, text, folder, within: Some(root), ..GivenFile::default() };
         self.in_own_pool(|| {
-            self.program.exported(given, format, stop).map_err(|why| match why {
-                NotExported::Format(message) => Refusal::Request(message),
-                NotExported::Content(message) => Refusal::Content(message),
-                NotExported::Stopped(message) => Refusal::Stopped(message),
-                NotExported::Mistakes(found) => Refusal::Mistakes {
-                    message: rendered(&found, false),
-                    list: gumption_live::mistakes(&file.text, &found),
-                },
-                NotExported::System(message) => Refusal::Internal(message),
-            })
+            let made = self.program.exported(given(file), format, stop);
+            made.map_err(|why| refused(why, &file.text))
         })
+    }
+}
+
+/// A text of the page as a command takes it.
+fn given(file: &TextOfFile) -> GivenFile {
+    let TextOfFile { path, text, folder, root } = file.clone();
+    GivenFile { name: path, text, folder, within: Some(root), ..GivenFile::default() }
+}
+
+fn refused(why: NotExported, text: &str) -> Refusal {
+    match why {
+        NotExported::Format(message) => Refusal::Request(message),
+        NotExported::Content(message) => Refusal::Content(message),
+        NotExported::Stopped(message) => Refusal::Stopped(message),
+        NotExported::Mistakes(found) => Refusal::Mistakes {
+            message: rendered(&found, false),
+            list: gumption_live::mistakes(text, &found),
+        },
+        NotExported::System(message) => Refusal::Internal(message),
     }
 }
 
@@ -130,9 +138,23 @@ impl Answers for PageAnswers {
         Ok(Exported { content, content_type, name })
     }
 
-    fn page(&self, file: &TextOfFile, stop: &Arc<AtomicBool>) -> Result<String, Refusal> {
+    fn page(
+        &self,
+        file: &TextOfFile,
+        told: &(dyn Fn(f64) + Sync),
+        stop: &Arc<AtomicBool>,
+    ) -> Result<EvaluatedPage, Refusal> {
+        if TextKind::of(&file.text) == TextKind::Case {
+            let found = self.in_own_pool(|| {
+                let made = self.program.diagnosed(&given(file), told, stop);
+                made.map_err(|why| refused(why, &file.text))
+            })?;
+            return Ok(EvaluatedPage { html: found.html, answer: Some(found.json) });
+        }
         let page = self.exported(file, "html", stop)?;
-        String::from_utf8(page.content).map_err(|error| Refusal::Internal(error.to_string()))
+        let html = String::from_utf8(page.content);
+        let html = html.map_err(|error| Refusal::Internal(error.to_string()))?;
+        Ok(EvaluatedPage { html, answer: None })
     }
 
     fn replace(&self, path: &Path, content: &[u8]) -> io::Result<()> {

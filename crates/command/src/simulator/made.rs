@@ -127,7 +127,7 @@ fn columns_of(table: &Table, quantities: &[SimulatorQuantity]) -> Result<Vec<usi
         match stated.filter(|stated| stated != unit) {
             Some(_) => Err(format!(
                 "`{}` has the column `{heading}`, but must have `{name}` in {unit}",
-                table.source.name
+                table.name
             )),
             None => Ok(place),
         }

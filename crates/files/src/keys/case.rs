@@ -32,6 +32,7 @@ pub(crate) const OBSERVATIONS: &[Key] = keys![
                 "A CSV file with a header of names and a row for each measurement: conditions and \
                  outputs in their units.",
             ),
+    "values" => values(),
     "columns" => observed_columns(),
     "order" => text_of(
                 "The column that says in which order the rows were taken, as a number. Without it and \
@@ -47,6 +48,25 @@ pub(crate) const OBSERVATIONS: &[Key] = keys![
             ),
 ];
 
+fn values() -> Value {
+    let cells = object([("type", Value::from("number"))]);
+    let column = described("array", "Its values, one for each row.")
+        .with("items", cells)
+        .with("minItems", 1);
+    object([
+        (
+            "description",
+            Value::from(
+                "The data themselves instead of a file: the columns by their headings, each a list \
+                 of numbers, all of the same length.",
+            ),
+        ),
+        ("type", Value::from("object")),
+        ("additionalProperties", column),
+        ("minProperties", Value::from(1)),
+    ])
+}
+
 fn observations() -> Value {
     let example = object([
         ("file", Value::from("data.csv")),
@@ -61,7 +81,9 @@ fn observations() -> Value {
             )]),
         ),
     ]);
-    closed("Measured data of a gap case.", OBSERVATIONS, &["file", "columns"])
+    let data = ["file", "values"].map(|key| object([("required", texts([key]))]));
+    closed("Measured data of a gap case.", OBSERVATIONS, &["columns"])
+        .with("oneOf", Value::from(data.to_vec()))
         .with("not", object([("required", texts(["order", "time"]))]))
         .with("examples", vec![example])
 }

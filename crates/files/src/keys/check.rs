@@ -7,15 +7,18 @@ use gumption_text::object::Object;
 use gumption_text::other_names::other_name;
 use gumption_units::nearest;
 
-/// Reports every key that is not among `known`; keys that begin with `$` belong to editors.
-pub(crate) fn check(object: &Object<'_>, known: &[Key]) {
-    check_names(object, &known.iter().map(|key| key.name).collect::<Vec<_>>());
+/// Reports every key that is not among `known`, and returns whether there was none; keys that begin
+/// with `$` belong to editors.
+pub(crate) fn check(object: &Object<'_>, known: &[Key]) -> bool {
+    check_names(object, &known.iter().map(|key| key.name).collect::<Vec<_>>())
 }
 
 /// As [`check`], for keys that are put together.
-pub(crate) fn check_names(object: &Object<'_>, known: &[&'static str]) {
+pub(crate) fn check_names(object: &Object<'_>, known: &[&'static str]) -> bool {
+    let mut are_known = true;
     for member in object.members() {
         if !known.contains(&member.key.as_str()) && !member.key.starts_with('$') {
+            are_known = false;
             object.log.report(
                 &member.key_span,
                 DiagnosticKind::UnknownKey {
@@ -31,4 +34,5 @@ pub(crate) fn check_names(object: &Object<'_>, known: &[&'static str]) {
             );
         }
     }
+    are_known
 }

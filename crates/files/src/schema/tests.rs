@@ -115,6 +115,12 @@ fn wrong_files_are_not_valid() {
         ("conditions", json!({"file": "x.csv", "unit": {}})),
         ("format", json!(3)),
         ("observations", json!({"file": "x.csv"})),
+        ("observations", json!({"columns": {"y": {"value": "y"}}})),
+        (
+            "observations",
+            json!({"file": "x.csv", "values": {"y": [1]}, "columns": {"y": {"value": "y"}}}),
+        ),
+        ("observations", json!({"values": {"y": ["1"]}, "columns": {"y": {"value": "y"}}})),
         ("observations", json!({"file": "x.csv", "columns": {}})),
         ("observations", json!({"file": "x.csv", "columns": {"y": {"sim": "s"}}})),
         (
