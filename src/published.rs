@@ -138,7 +138,7 @@ mod tests {
     /// title that is no code name; no name of the gallery is left over.
     #[test]
     fn the_gallery_has_everything_once() {
-        let catalogue = crate::measurements::catalogue();
+        let catalogue = crate::catalogue();
         let templates = catalogue.iter().filter_map(|of| Some((of.name(), of.template?)));
         let all: Vec<(&str, &str)> = templates.chain(EXAMPLES.starting_points()).collect();
         let mut wanted: Vec<&str> = all.iter().map(|(name, _)| *name).collect();
