@@ -173,6 +173,75 @@ await test("a certificate is shown and exported as DCC", async page => {
   assert.match(dcc.bytes.toString(), /<dcc:digitalCalibrationCertificate/);
 }, { open: "certificates/three_axis_accelerometer.json", files: [["models", "."]] });
 
+const CERTIFICATE = { files: [["models/examples/power.json", "measured/power.json"], ["models/laboratory/pictures/logo.svg", "logo.svg"]] };
+const EMPTY_CERTIFICATE = '{\n  "format": 1,\n  "rows": []\n}\n';
+
+/** An empty certificate in the folder, opened. */
+async function emptyCertificate(page, folder) {
+  await writeFile(join(folder, "c.json"), EMPTY_CERTIFICATE);
+  await page.click("#open");
+  await page.locator("#dialog .entry", { hasText: "c.json" }).click();
+  await page.locator("#certificate-form details").first().waitFor();
+}
+
+await test("a certificate from nothing, by its fields", async (page, folder) => {
+  await emptyCertificate(page, folder);
+  // nothing is red, and what is missing is said
+  assert.equal(await page.locator("#mistakes li, #certificate-form [aria-invalid]").count(), 0);
+  assert.match(await text(page, "#lacking"), /Add a row: choose a model and one of its outputs/);
+  await shot(page, "certificate-empty", { fullPage: true });
+  await page.locator("#lacking button").first().click();
+  await until(page, () => document.activeElement.dataset.key === "rows#model");
+  await field(page, "Number of the certificate").fill("2026-017");
+  await field(page, "What it is of Device").fill("wattmeter");
+  await field(page, "Serial number of Device").fill("0815");
+  await field(page, "Name of Customer").fill("Rossi & Co <Torino>");
+  await field(page, "City of Customer").fill("Torino");
+  await field(page, "First day of the calibration").fill("2026-03-02");
+  await field(page, "Last day of the calibration").fill("2026-03-03");
+  await field(page, "Add a row").selectOption("measured/power.json");
+  await page.getByRole("button", { name: /^power/ }).click();
+  await field(page, "Nominal value of row 1").fill("251");
+  await page.getByRole("button", { name: /^power/ }).focus();
+  await page.keyboard.press("Enter");
+  await field(page, "Change a value … of row 2").selectOption("voltage");
+  await until(page, () => document.activeElement.getAttribute("aria-label") === "voltage of row 2");
+  await page.keyboard.type("6.0");
+  await field(page, "Name of the row of row 2").fill("at 6 V");
+  const frame = page.frameLocator("#report");
+  await frame.getByText("2026-017").first().waitFor();
+  await frame.getByText("at 6 V").first().waitFor();
+  // columns of one's own
+  await page.locator("summary", { hasText: /^Table$/ }).click();
+  await field(page, "Columns").selectOption("own");
+  await field(page, "Add a column").selectOption({ label: "voltage" });
+  await field(page, "Heading of column 5").fill("Applied voltage");
+  await page.getByLabel("Move voltage up").click();
+  await until(page, () => document.activeElement.getAttribute("aria-label") === "Move voltage up");
+  await page.locator("summary", { hasText: /^Letterhead$/ }).click();
+  await field(page, "Logo").selectOption("logo.svg");
+  await frame.getByText("Applied voltage").first().waitFor();
+  // the page keeps its place
+  await until(page, () => document.querySelectorAll(".pages iframe").length === 1);
+  await page.evaluate(() => document.getElementById("report").contentWindow.scrollTo(0, 300));
+  await field(page, "Responsible person").fill("A. Metrologist");
+  await frame.getByText("A. Metrologist").first().waitFor();
+  await until(page, () => document.querySelectorAll(".pages iframe").length === 1 && document.getElementById("report").contentWindow.scrollY === 300);
+  await page.evaluate(() => document.getElementById("report").contentWindow.scrollTo(0, 0));
+  await shot(page, "certificate-form", { fullPage: true });
+  await until(page, () => document.getElementById("state").textContent === "saved");
+  const written = JSON.parse(await readFile(join(folder, "c.json"), "utf8"));
+  assert.deepEqual(written.rows, [
+    { model: "measured/power.json", output: "power", nominal: 251 },
+    { model: "measured/power.json", output: "power", set: { voltage: 6.0 }, label: "at 6 V" },
+  ]);
+  assert.deepEqual(written.calibration_date, ["2026-03-02", "2026-03-03"]);
+  assert.equal(written.device.serial_number, "0815");
+  const told = execFileSync(process.env.GUMPTION, ["certificate", join(folder, "c.json"), "--quiet"]).toString();
+  assert.match(told, /Rossi & Co <Torino>/);
+  assert.match(told, /Applied voltage/);
+}, CERTIFICATE);
+
 await test("a gap case is shown with its diagnosis", async page => {
   await until(page, () => (document.getElementById("report").src || "").includes("api/page"));
   const frame = page.frameLocator("#report");

@@ -32,12 +32,12 @@ export class Mistakes {
     list.dataset.shown = key;
     this.diagnostics = found.diagnostics;
     list.replaceChildren(...items.slice(0, 12).map(([of, message], place) => make("li", {},
-      of && !of.file ? make("button", { type: "button", onclick: () => this.#goTo(this.diagnostics[items[0][0] ? place : place - 1]) }, `${of.line}:${of.column}`) : null,
+      of && !of.file ? make("button", { type: "button", onclick: () => this.goTo(this.diagnostics[items[0][0] ? place : place - 1]) }, `${of.line}:${of.column}`) : null,
       " " + message)));
   }
 
   /** Goes to the place of a mistake. */
-  #goTo(of) {
+  goTo(of) {
     if (!of) return;
     if (this.page.view !== "text" && this.page.shownForms.length) {
       if (of.path[0] === "equations" && of.path.length > 1) {
@@ -49,8 +49,7 @@ export class Mistakes {
       }
       const field = this.page.shownForms.map(form => form.fieldAt(of.path)).find(field => field);
       if (field) {
-        const folded = field.closest("details");
-        if (folded) folded.open = true;
+        for (let folded = field.closest("details"); folded; folded = folded.parentElement.closest("details")) folded.open = true;
         return field.focus();
       }
       this.page.show("text");

@@ -1,6 +1,7 @@
 // The page: one open file, its form and its text, and what follows from it.
 
 import { Answers } from "./answers.js";
+import { CertificateForm } from "./certificate.js";
 import { Code } from "./code.js";
 import { Dialog } from "./dialog.js";
 import { Document } from "./document.js";
@@ -39,7 +40,7 @@ class Page {
     this.source = new Code(this.element("source-box"));
     this.form = new Form(this);
     // the forms of each kind of file; files of other kinds are edited as text
-    this.forms = { model: [this.form] };
+    this.forms = { model: [this.form], certificate: [new CertificateForm(this)] };
     this.language = pickLanguage(program.hello.lang);
     this.words = this.language === "de" ? de : en;
   }
@@ -222,6 +223,7 @@ class Page {
     if (force) this.force = false;
     this.kind = found.kind;
     const isModel = found.kind === "model";
+    this.element("editor-title").textContent = found.kind === "certificate" ? this.words.certificate.certificate : this.words.measurement;
     this.element("view-form").disabled = !this.forms[found.kind];
     this.show(this.view);
     if (found.inputs !== undefined) {
@@ -234,6 +236,7 @@ class Page {
       model.replaceChildren(...(found.model ? [`${this.words.model_is} ${found.model}. `, ...(found.statement || []).flatMap(([name, formula]) => [make("code", {}, `${name} = ${formula}`), " "])] : []));
     }
     for (const form of this.shownForms) form.show(found, force);
+    this.element("certify").hidden = !isModel || (found.results || []).length === 0;
     this.mistakes.show(found, request);
     if (isModel) this.result.results(found);
     else this.result.report(found, request);
@@ -262,6 +265,7 @@ class Page {
       if (element.tagName === "BUTTON") element.title = this.words[element.dataset.wLabel];
     }
     for (const element of document.querySelectorAll("[data-w-title]")) element.title = this.words[element.dataset.wTitle];
+    this.element("certify").textContent = this.words.certificate.from_result;
     this.element("language").value = this.language;
   }
 
@@ -293,6 +297,7 @@ class Page {
     on("view-text", "click", () => this.show("text"));
     on("undo", "click", () => this.undo());
     on("redo", "click", () => this.redo());
+    on("certify", "click", () => this.files.certify());
     on("save", "click", () => this.files.save());
     on("open", "click", () => this.files.openDialog());
     on("new", "click", () => this.files.newDialog());

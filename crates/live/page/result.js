@@ -3,6 +3,7 @@
 import { make, put, unit } from "./parts.js";
 
 const SPEAK = 900;
+const REPORT = 500;
 
 export class Result {
   constructor(page) {
@@ -16,6 +17,7 @@ export class Result {
   clear() {
     this.hasResults = false;
     this.reported = null;
+    this.hasPage = false;
     this.element("box-audit").hidden = true;
     this.element("results").hidden = true;
   }
@@ -32,6 +34,7 @@ export class Result {
   results(found) {
     const { words } = this;
     this.element("report").hidden = true;
+    this.element("lacking").hidden = true;
     const has = found.results !== undefined;
     const results = this.element("results");
     this.isBefore = !has;
@@ -167,33 +170,73 @@ export class Result {
     put(this.element("part-audit"), found.html || "");
   }
 
+  /** What a certificate lacks is said in place of its page. */
+  #lacking(found) {
+    const place = this.element("lacking");
+    const lacks = found.lacking || [];
+    place.hidden = lacks.length === 0;
+    const { lacks: title, lack } = this.words.certificate;
+    const key = JSON.stringify([title, lacks]);
+    if (place.dataset.key === key) return;
+    place.dataset.key = key;
+    place.replaceChildren(make("p", {}, title), make("ul", {}, ...lacks.map(path => make("li", {},
+      make("button", { type: "button", class: "link", onclick: () => this.page.mistakes.goTo({ path }) }, lack[path[0]])))));
+  }
+
   /** The page of a case, a certificate, a comparison or a recipe. */
   report(found, request) {
     this.element("results").hidden = true;
     this.hasResults = false;
     this.element("output-tabs").hidden = true;
     this.element("nothing").hidden = true;
+    this.#lacking(found);
     const frame = this.element("report");
+    const lacks = (found.lacking || []).length > 0;
     if (["other", "costs", "result"].includes(found.kind)) { frame.hidden = true; return; }
-    frame.hidden = false;
+    frame.hidden = lacks && !this.hasPage;
     clearTimeout(this.reporter);
     const { text, path } = request;
     // what was true before the mistake stays there
-    frame.classList.toggle("stale", found.diagnostics.length > 0);
-    if (this.reported === text || found.diagnostics.length) return;
+    frame.classList.toggle("stale", found.diagnostics.length > 0 || lacks);
+    if (this.reported === text || found.diagnostics.length || lacks) return;
     this.reporter = setTimeout(async () => {
       try {
         const address = await this.page.program.page({ path, text });
         if (text !== this.page.document.text) return;
         this.reported = text;
-        frame.src = address;
+        this.#turn(address);
         this.page.mistakes.told(null);
       } catch (error) {
         const told = error.answer && error.answer.diagnostics;
         if (!told || text !== this.page.document.text) return this.page.failed(error);
         this.page.mistakes.show({ ...found, diagnostics: told }, request);
-        frame.classList.add("stale");
+        this.element("report").classList.add("stale");
       }
-    }, this.reported ? 900 : 0);
+    }, this.reported ? REPORT : 0);
+  }
+
+  /** Another page in place of the one that is shown, when it is there, at the place that was read. */
+  #turn(address) {
+    const shown = this.element("report");
+    if (this.coming) this.coming.remove();
+    this.coming = null;
+    if (!this.hasPage) { shown.src = address; this.hasPage = true; return; }
+    const next = shown.cloneNode();
+    next.removeAttribute("id");
+    next.classList.add("coming");
+    next.src = address;
+    next.onload = () => {
+      if (this.coming !== next) return;
+      this.coming = null;
+      try { next.contentWindow.scrollTo(shown.contentWindow.scrollX, shown.contentWindow.scrollY); } catch { /* another origin */ }
+      next.className = "";
+      next.title = shown.title;
+      if (shown.src.startsWith("blob:")) URL.revokeObjectURL(shown.src);
+      shown.remove();
+      next.id = "report";
+      next.hidden = false;
+    };
+    this.coming = next;
+    shown.after(next);
   }
 }

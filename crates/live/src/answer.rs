@@ -20,7 +20,7 @@ use std::path::Path;
 
 use crate::edit::{Edit, edited};
 use crate::tree::{self, path_of};
-use crate::{LiveError, diagnostics, inputs, limited, outputs};
+use crate::{LiveError, certificate, diagnostics, inputs, limited, outputs};
 use gumption_report::words::Language;
 
 /// Maximum number of trials over all rows, up to which the page refines in the background. The
@@ -87,6 +87,11 @@ pub(crate) fn answer(
             answer["diagnostics"] =
                 found.map_or(json!([]), |found| diagnostics::list(text, &found));
             answer["content"] = root.as_ref().map_or(Json::Null, |root| tree::content(bare, root));
+            if let (TextKind::Certificate, Some(root)) = (other, &root) {
+                answer["models"] = certificate::models(files, root);
+                answer["lacking"] =
+                    json!(certificate::lacking(root, &mut answer["diagnostics"]));
+            }
             return Ok(answer);
         }
     };

@@ -7,6 +7,8 @@
 
 mod answer;
 mod audit;
+mod certificate;
+mod description;
 mod diagnostics;
 mod edit;
 mod examples;
@@ -32,6 +34,7 @@ use gumption_files::FileReader;
 use serde::de::DeserializeOwned;
 use serde_json::json;
 
+pub use description::FileDescription;
 pub use diagnostics::mistakes;
 pub use gumption_text::FileSource;
 pub use held::HeldFiles;
@@ -84,13 +87,14 @@ impl<'a> Live<'a> {
     ///
     /// | call | request | answer |
     /// |---|---|---|
-    /// | `answer` | `text`, `name`, `edits`, `trials`, `full`, `narrow`, `output`, `row`, `lang` | errors; or inputs, outputs, results, parts of the page |
+    /// | `answer` | `text`, `name`, `edits`, `trials`, `full`, `narrow`, `output`, `row`, `lang` | errors; or inputs, outputs, results, parts of the page; of a certificate the models of its rows |
     /// | `audit` | `text`, `name`, `lang` | `html`: what the Type B assumptions decide |
     /// | `edit` | `text`, `edits` | `text` |
     /// | `reshape` | `text`, `path`, `distribution` | `text` with another distribution of an input |
     /// | `new` | `example`, `template` or nothing | `text` |
     /// | `examples` | | lists of names with titles |
     /// | `kinds` | | distributions with their keys, units |
+    /// | `contents` | `model`: a name as a certificate has it | its outputs, inputs, conditions |
     /// | `import` | `name`, `base64` | `text`, `notes` |
     ///
     /// # Errors
@@ -115,6 +119,7 @@ impl<'a> Live<'a> {
             "new" => examples::new(self, &asked(request)?)?,
             "examples" => examples::list(self),
             "kinds" => kinds::all(),
+            "contents" => certificate::contents(files, &asked(request)?),
             "import" => import::imported(&asked(request)?)?,
             other => return Err(LiveError::Unknown(other.to_owned())),
         };

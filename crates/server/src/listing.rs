@@ -39,8 +39,16 @@ struct Listed {
 
 /// Whether the page can use a file, by its extension.
 fn is_wanted(name: &str) -> bool {
-    let extension = name.rsplit_once('.').map(|(_, of)| of.to_ascii_lowercase());
-    matches!(extension.as_deref(), Some("json" | "csv" | "xlsx" | "xml"))
+    matches!(extension(name).as_deref(), Some("json" | "csv" | "xlsx" | "xml")) || is_picture(name)
+}
+
+/// Whether a file is a picture as a letterhead may have it, by its extension.
+fn is_picture(name: &str) -> bool {
+    matches!(extension(name).as_deref(), Some("png" | "svg"))
+}
+
+fn extension(name: &str) -> Option<String> {
+    name.rsplit_once('.').map(|(_, of)| of.to_ascii_lowercase())
 }
 
 /// The files below the folder; only those directly in it if a file was opened.
@@ -49,6 +57,9 @@ pub(crate) fn listing(folder: &OpenedFolder, answers: &dyn Answers) -> Listing {
     let depth = if folder.named().is_some() { 0 } else { DEEPEST };
     found.look_into(folder.root(), "", depth);
     let described = |path: String| {
+        if is_picture(&path) {
+            return Listed { path, kind: "picture", title: None };
+        }
         // unreadable files are listed too: opening them gives the reason
         let content = folder.path(&path).and_then(|path| read(&path, LONGEST));
         let (kind, title) = match content {

@@ -10,7 +10,6 @@ use crate::diagnostics::render as rendered;
 use crate::output::Destination;
 use crate::{CommandLine, ExportedAnswer, GivenFile, NotExported};
 use gumption_engine::parallel::Pool;
-use gumption_files::TextKind;
 use gumption_live::LiveError;
 use gumption_server::{
     Answers, Exported, FileDescription, NamedFiles, Refusal, ServedAsset, TextOfFile,
@@ -113,11 +112,10 @@ impl Answers for PageAnswers {
         })
     }
 
-    fn describe(&self, _name: &str, content: &[u8]) -> FileDescription {
-        let text = String::from_utf8_lossy(content);
-        let title = serde_json::from_str::<serde_json::Value>(&text).ok();
-        let title = title.and_then(|root| root.get("title")?.as_str().map(str::to_owned));
-        FileDescription { kind: TextKind::of(&text).name(), title }
+    fn describe(&self, name: &str, content: &[u8]) -> FileDescription {
+        let gumption_live::FileDescription { kind, title } =
+            gumption_live::FileDescription::of(name, content);
+        FileDescription { kind, title }
     }
 
     fn export(
