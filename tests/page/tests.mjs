@@ -47,6 +47,12 @@ async function answered(page, act) {
 }
 const field = (page, label) => page.getByLabel(label, { exact: true });
 const until = (page, check, argument) => page.waitForFunction(check, argument, { timeout: 20000 });
+/** What axe-core says against the page as it stands. */
+async function violations(page) {
+  await page.evaluate(await readFile(axe, "utf8") + ";window.axe = axe;0");
+  const found = await page.evaluate(() => window.axe.run(document, { runOnly: ["wcag2a", "wcag2aa", "wcag21a", "wcag21aa", "wcag22aa", "best-practice"] }));
+  return found.violations.map(of => `${of.id}: ${of.help}\n    ${of.nodes.slice(0, 3).map(node => node.html.slice(0, 160)).join("\n    ")}`);
+}
 const source = page => page.evaluate(() => document.getElementById("source").value);
 
 await test("the resistor of the README from nothing, with the command line's digits", async (page, folder) => {
@@ -228,6 +234,7 @@ await test("a certificate from nothing, by its fields", async (page, folder) => 
   await frame.getByText("A. Metrologist").first().waitFor();
   await until(page, () => document.querySelectorAll(".pages iframe").length === 1 && document.getElementById("report").contentWindow.scrollY === 300);
   await page.evaluate(() => document.getElementById("report").contentWindow.scrollTo(0, 0));
+  assert.deepEqual(await violations(page), []);
   await shot(page, "certificate-form", { fullPage: true });
   await until(page, () => document.getElementById("state").textContent === "saved");
   const written = JSON.parse(await readFile(join(folder, "c.json"), "utf8"));
@@ -355,12 +362,7 @@ for (const [name, colorScheme] of [["light", "light"], ["dark", "dark"]]) {
     await refined(page);
     await until(page, () => document.querySelector("#part-audit table") !== null);
     await page.click("#more summary");
-    const look = async state => {
-      await page.evaluate(await readFile(axe, "utf8") + ";window.axe = axe;0");
-      const found = await page.evaluate(() => window.axe.run(document, { runOnly: ["wcag2a", "wcag2aa", "wcag21a", "wcag21aa", "wcag22aa", "best-practice"] }));
-      const told = found.violations.map(of => `${of.id}: ${of.help}\n    ${of.nodes.slice(0, 3).map(node => node.html.slice(0, 160)).join("\n    ")}`);
-      assert.deepEqual(told, [], state);
-    };
+    const look = async state => assert.deepEqual(await violations(page), [], state);
     await look("with results");
     await page.fill("#equations", "power = voltage^2/resistanse");
     await until(page, () => document.querySelectorAll("#mistakes li").length > 0);
@@ -461,6 +463,76 @@ await test("no English sentence is left on the German page", async page => {
   await page.selectOption("#language", "en");
   await until(page, () => /Subtotals|Sensitivity/.test(document.getElementById("part-budget").innerText));
 }, { lang: "de" });
+
+await test("a certificate in German on a phone, in two languages", async (page, folder) => {
+  await emptyCertificate(page, folder);
+  await field(page, "Zeile hinzufügen").selectOption("measured/power.json");
+  await page.getByRole("button", { name: /^power/ }).click();
+  await page.locator("summary", { hasText: /^Sprachen/ }).click();
+  await field(page, "Gegenstand von Gerät").fill("Leistungsmesser");
+  await page.getByLabel("Deutsch", { exact: true }).last().check();
+  await field(page, "Gegenstand (Deutsch) von Gerät").fill("Leistungsmessgerät");
+  await page.getByLabel("Zuerst:").selectOption("de");
+  await field(page, "Einen Wert ändern … von Zeile 1").selectOption("voltage");
+  await field(page, "voltage von Zeile 1").fill("6,5");
+  await until(page, () => document.getElementById("state").textContent === "gespeichert" && document.getElementById("source").value.includes("6.5"));
+  const written = JSON.parse(await source(page));
+  assert.deepEqual([written.language, written.device.name, written.rows[0].set], [["de", "en"], { en: "Leistungsmesser", de: "Leistungsmessgerät" }, { voltage: 6.5 }]);
+  // fewer languages take no text away
+  await page.getByLabel("Englisch", { exact: true }).last().uncheck();
+  await until(page, () => JSON.parse(document.getElementById("source").value).language === "de");
+  assert.equal(await field(page, "Gegenstand (Englisch) von Gerät").inputValue(), "Leistungsmesser");
+  await page.frameLocator("#report").getByText("Leistungsmessgerät").first().waitFor();
+  for (const summary of ["Tabelle", "Briefkopf", "Weitere Einstellungen"]) await page.locator("summary", { hasText: new RegExp(`^${summary}$`) }).click();
+  const wide = await page.evaluate(() => document.documentElement.scrollWidth);
+  assert(wide <= 390, `the page is ${wide} wide`);
+  assert.deepEqual(await english(page), []);
+  assert.deepEqual(await violations(page), []);
+  await shot(page, "certificate-german-phone", { fullPage: true });
+}, { ...CERTIFICATE, lang: "de", viewport: { width: 390, height: 844 } });
+
+await test("a certificate from a result", async (page, folder) => {
+  await mkdir(join(folder, "certificates"));
+  await writeFile(join(folder, ".gumption-root"), "");
+  await refined(page);
+  await page.click("#certify");
+  await page.frameLocator("#report").getByText("251.1").first().waitFor();
+  await shot(page, "certificate-from-result");
+  // from another folder the model has another path
+  await page.keyboard.press("Control+s");
+  await page.locator("#dialog input").fill("certificates/c.json");
+  await page.locator("#dialog-actions button").first().click();
+  await until(page, () => document.getElementById("state").textContent === "saved");
+  assert.deepEqual(JSON.parse(await readFile(join(folder, "certificates/c.json"), "utf8")).rows, [{ model: "../power.json", output: "power" }]);
+  execFileSync(process.env.GUMPTION, ["certificate", join(folder, "certificates/c.json"), "--quiet"]);
+}, { ...POWER, open: "" });
+
+await test("a certificate keeps what its form cannot say", async (page, folder) => {
+  const whole = `{
+  // as the laboratory writes it
+  "device": "meter", "customer": "Rossi", "laboratory": {"name": "L"}, "remarks": ["a", "b"],
+  "issue_date": "2026-13-01",
+  "layout": {"tables": [{"name": "t", "columns": ["power"]}, {"name": "u", "columns": ["power", "U"]}]},
+  "rows": [{"model": "power.json", "output": "power", "table": "t", "set": {"voltage": "5 V"}}, {"model": "power.json", "output": "power", "table": "u"}]
+}`;
+  await writeFile(join(folder, "c.json"), whole);
+  await page.click("#open");
+  await page.locator("#dialog .entry", { hasText: "c.json" }).click();
+  await field(page, "What it is of Device").waitFor();
+  assert.equal(await field(page, "Name of Customer").inputValue(), "Rossi");
+  assert.equal(await field(page, "Issued on").inputValue(), "2026-13-01");
+  await page.locator("summary", { hasText: /^Table$/ }).click();
+  assert.match(await text(page, "#certificate-form"), /has 2 tables/);
+  await field(page, "City of Customer").pressSequentially("Roma");
+  await field(page, "Issued on").fill("2026-03-01");
+  await until(page, () => document.getElementById("state").textContent === "saved" && document.getElementById("source").value.includes("2026-03-01"));
+  await field(page, "voltage of row 1").fill("5.5 V");
+  await page.getByLabel("Move row 2 up").click();
+  await until(page, () => /"u"}, {"model"/.test(document.getElementById("source").value));
+  const expected = whole.replace('"customer": "Rossi"', '"customer": {"city": "Roma", "name": "Rossi"}').replace("2026-13-01", "2026-03-01")
+    .replace(/"rows".*/, '"rows": [{"model": "power.json", "output": "power", "table": "u"}, {"model": "power.json", "output": "power", "table": "t", "set": {"voltage": "5.5 V"}}]');
+  assert.equal((await source(page)).replace('"name": "Rossi", "city": "Roma"', '"city": "Roma", "name": "Rossi"'), expected);
+}, { ...POWER, open: "" });
 
 await test("speed with 20 inputs", async page => {
   const inputs = {}, terms = [];

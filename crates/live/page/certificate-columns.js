@@ -1,6 +1,6 @@
 // The table of a certificate: which columns it has, their order and headings.
 
-import { at, make } from "./parts.js";
+import { make } from "./parts.js";
 
 const CONTENTS = ["value", "U", "k", "nu_eff", "p", "limits", "decision", "label"];
 const WITH_UNIT = ["value", "U", "limits"];

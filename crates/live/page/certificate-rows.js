@@ -42,7 +42,7 @@ export class CertificateRows {
   name(place) { return this.said.row(place + 1); }
 
   #row(row, place, count) {
-    const { form, said, words } = this;
+    const { form, said } = this;
     const path = ["rows", place];
     const of = this.name(place);
     if (row === null || typeof row !== "object") {
@@ -53,10 +53,11 @@ export class CertificateRows {
     const output = outputs.find(one => one.name === row.output);
     const tables = form.list(["layout", "tables"]).map(table => table && table.name).filter(name => typeof name === "string");
     const nominal = form.text([...path, "nominal"], said.nominal, { of, kind: "number", size: 9 });
-    if (output) nominal.append(make("span", { class: "unit" }, ...unit(output.unit === "1" ? "" : output.unit)));
+    if (output && output.unit !== "1") nominal.firstChild.append(" ", ...unit(output.unit));
     const names = [...new Set([...this.#files(), row.model].filter(name => typeof name === "string"))];
     const modelChoice = form.choice([...path, "model"], said.model, names.map(name => [name, this.#title(name)]), { of });
-    form.fields.set(`${at(path)}#name`, form.fields.get(at([...path, "output"])) || form.fields.get(at([...path, "model"])));
+    modelChoice.classList.add("wide");
+    form.fields.set(`${at(path)}#name`, form.fields.get(at([...path, "model"])));
     const about = output && output.about ? `${row.output}, ${output.about}` : row.output || "";
     return make("div", { class: "stated" },
       make("p", { class: "head" }, make("b", {}, `${place + 1}. ${about}`), form.movers(path, of, count)),

@@ -283,10 +283,10 @@ export class CertificateForm extends Fields {
         this.fill(at(key), isObject(value) ? this.written(key) : code === this.languages[0] && typeof value === "string" ? value : "", "text");
       };
       this.whenShown(show);
-      return this.named(own, field, { class: "labelled wide" });
+      return this.named(own, field, { class: lines || codes.length > 1 ? "labelled" : "labelled wide" });
     });
     this.fields.set(`${at(path)}#name`, this.fields.get(at([...path, codes[0]])));
-    return fields;
+    return lines || codes.length > 1 ? [make("div", { class: "in-languages" }, ...fields)] : fields;
   }
 
   /** A field of one line, or of several. */
@@ -445,7 +445,7 @@ export class CertificateForm extends Fields {
     const pictures = this.files.filter(file => file.kind === "picture").map(file => [file.name, file.name]);
     const picture = key => this.choice(["letterhead", key], said.letter[key], [["", said.none], ...pictures]);
     return make("div", {},
-      pictures.length ? null : make("p", { class: "hint" }, this.page.program.hasFolder ? said.no_pictures : said.no_pictures_held),
+      pictures.length || this.get(["letterhead"]) !== undefined ? null : make("p", { class: "hint" }, this.page.program.hasFolder ? said.no_pictures : said.no_pictures_held),
       this.#grid(picture("logo"), picture("accreditation_mark"),
         this.text(["letterhead", "accreditation_number"], said.letter.accreditation_number),
         this.localized(["letterhead", "accreditation"], said.letter.accreditation)));

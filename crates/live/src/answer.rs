@@ -89,8 +89,7 @@ pub(crate) fn answer(
             answer["content"] = root.as_ref().map_or(Json::Null, |root| tree::content(bare, root));
             if let (TextKind::Certificate, Some(root)) = (other, &root) {
                 answer["models"] = certificate::models(files, root);
-                answer["lacking"] =
-                    json!(certificate::lacking(root, &mut answer["diagnostics"]));
+                answer["lacking"] = json!(certificate::lacking(root, &mut answer["diagnostics"]));
             }
             return Ok(answer);
         }

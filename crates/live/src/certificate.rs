@@ -28,7 +28,8 @@ pub(crate) fn contents(files: FileReader<'_>, asked: &ContentsRequest) -> Json {
 /// The contents of the models that the rows and functions of a certificate name, by these names.
 pub(crate) fn models(files: FileReader<'_>, root: &Value<'_>) -> Json {
     let mut models = Map::new();
-    let named = ["rows", "functions"].into_iter().filter_map(|key| tree::get(root, key)?.as_array());
+    let named =
+        ["rows", "functions"].into_iter().filter_map(|key| tree::get(root, key)?.as_array());
     for of in named.flat_map(|array| &array.elements) {
         let Some(name) = tree::get(of, "model").and_then(Value::as_string_lit) else { continue };
         if models.len() >= MOST {
@@ -50,9 +51,8 @@ fn of_model(files: FileReader<'_>, name: &str) -> Json {
 
 fn described(file: &ModelFile) -> Json {
     let model = &file.task.model;
-    let quantity = |of: &Quantity| {
-        json!({ "name": of.name, "unit": of.unit.to_string(), "about": of.about })
-    };
+    let quantity =
+        |of: &Quantity| json!({ "name": of.name, "unit": of.unit.to_string(), "about": of.about });
     let outputs = model.outputs.iter().map(|output| {
         let mut of = quantity(&output.quantity);
         of["tolerance"] = json!(output.tolerance.is_some());

@@ -24,9 +24,7 @@ use gumption_engine::task::{Task, Warning};
 use gumption_text::json::{Json, Member, Node};
 use gumption_text::object::Object;
 use gumption_text::value_text::{ValueOf, converts_alike, either_temperature};
-use gumption_text::{
-    Collector, Diagnostic, DiagnosticKind, Folder, Place,
-};
+use gumption_text::{Collector, Diagnostic, DiagnosticKind, Folder, Place};
 use gumption_units::Unit;
 use gumption_units::nearest;
 
