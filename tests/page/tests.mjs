@@ -399,11 +399,15 @@ await test("a row of a sweep is chosen, and has headline and budget", async page
 
 await test("mistakes of a certificate are underlined, and mended there", async page => {
   await until(page, () => (document.getElementById("report").src || "").includes("api/page"));
+  await page.click("#view-text");
   const whole = await source(page);
   await answered(page, () => page.fill("#source", whole.replace('"output": "R"', '"output": "Q"')));
   await until(page, () => (document.querySelector("#source-box mark") || {}).textContent === '"Q"');
   assert.match(await text(page, "#mistakes"), /`Q`/);
   await shot(page, "certificate-mistake");
+  await page.click("#view-form");
+  assert.equal(await field(page, "Result of row 1").getAttribute("aria-invalid"), "true");
+  await page.click("#view-text");
   await answered(page, () => page.fill("#source", whole));
   await until(page, () => document.querySelectorAll("#mistakes li").length === 0);
 }, { open: "certificate.json", files: [["models/examples", "."]] });
@@ -505,11 +509,10 @@ await test("a certificate from a result", async (page, folder) => {
   await until(page, () => document.getElementById("state").textContent === "saved");
   assert.deepEqual(JSON.parse(await readFile(join(folder, "certificates/c.json"), "utf8")).rows, [{ model: "../power.json", output: "power" }]);
   execFileSync(process.env.GUMPTION, ["certificate", join(folder, "certificates/c.json"), "--quiet"]);
-}, { ...POWER, open: "" });
+}, POWER);
 
 await test("a certificate keeps what its form cannot say", async (page, folder) => {
   const whole = `{
-  // as the laboratory writes it
   "device": "meter", "customer": "Rossi", "laboratory": {"name": "L"}, "remarks": ["a", "b"],
   "issue_date": "2026-13-01",
   "layout": {"tables": [{"name": "t", "columns": ["power"]}, {"name": "u", "columns": ["power", "U"]}]},

@@ -34,7 +34,7 @@ export class Fields {
       field.isTyped = true;
       field.value = typed[0];
       // a day has no place of the cursor
-      if (typed[1] !== null) field.setSelectionRange(typed[1], typed[2]);
+      if (typed[1] !== null && field.selectionStart !== null) field.setSelectionRange(typed[1], typed[2]);
     }
   }
 

@@ -193,7 +193,7 @@ export class Result {
     const frame = this.element("report");
     const lacks = (found.lacking || []).length > 0;
     if (["other", "costs", "result"].includes(found.kind)) { frame.hidden = true; return; }
-    frame.hidden = lacks && !this.hasPage;
+    frame.hidden = (lacks || found.diagnostics.length > 0) && !this.hasPage;
     clearTimeout(this.reporter);
     const { text, path } = request;
     // what was true before the mistake stays there
