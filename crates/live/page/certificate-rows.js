@@ -53,7 +53,7 @@ export class CertificateRows {
     const output = outputs.find(one => one.name === row.output);
     const tables = form.list(["layout", "tables"]).map(table => table && table.name).filter(name => typeof name === "string");
     const nominal = form.text([...path, "nominal"], said.nominal, { of, kind: "number", size: 9 });
-    if (output && output.unit !== "1") nominal.firstChild.append(" ", ...unit(output.unit));
+    if (output && output.unit !== "1") nominal.firstChild.append(" in ", ...unit(output.unit));
     const names = [...new Set([...this.#files(), row.model].filter(name => typeof name === "string"))];
     const modelChoice = form.choice([...path, "model"], said.model, names.map(name => [name, this.#title(name)]), { of });
     modelChoice.classList.add("wide");

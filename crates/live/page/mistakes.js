@@ -27,13 +27,20 @@ export class Mistakes {
     const list = this.element("mistakes");
     const items = found.diagnostics.map(of => [of, of.file ? `${of.file}: ${of.message}` : of.message]);
     if (lines.some(line => line.isWrong)) items.unshift([null, this.words.no_equation]);
-    const key = JSON.stringify(items.map(([of, message]) => [of && of.line, message]));
+    const places = items.map(([of]) => of && this.#place(of));
+    const key = JSON.stringify(items.map(([, message], place) => [places[place], message]));
     if (list.dataset.shown === key) { this.diagnostics = found.diagnostics; return; }
     list.dataset.shown = key;
     this.diagnostics = found.diagnostics;
     list.replaceChildren(...items.slice(0, 12).map(([of, message], place) => make("li", {},
-      of && !of.file ? make("button", { type: "button", onclick: () => this.goTo(this.diagnostics[items[0][0] ? place : place - 1]) }, `${of.line}:${of.column}`) : null,
+      of && !of.file ? make("button", { type: "button", onclick: () => this.goTo(this.diagnostics[items[0][0] ? place : place - 1]) }, places[place]) : null,
       " " + message)));
+  }
+
+  /** Where a mistake is: the name of its field, or line and column of the text. */
+  #place(of) {
+    const field = this.page.view === "text" ? null : this.page.shownForms.map(form => form.fieldAt(of.path)).find(field => field);
+    return field && field.getAttribute("aria-label") || `${of.line}:${of.column}`;
   }
 
   /** Goes to the place of a mistake. */
