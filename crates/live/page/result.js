@@ -198,21 +198,34 @@ export class Result {
     const { text, path } = request;
     // what was true before the mistake stays there
     frame.classList.toggle("stale", found.diagnostics.length > 0 || lacks);
+    this.wanted = null;
     if (this.reported === text || found.diagnostics.length || lacks) return;
-    this.reporter = setTimeout(async () => {
+    this.wanted = { text, path, found, request };
+    this.reporter = setTimeout(() => this.#make(), this.reported ? REPORT : 0);
+  }
+
+  /** Makes the page that is wanted; one after the other, since they take a while. */
+  async #make() {
+    if (this.isMaking) return;
+    this.isMaking = true;
+    while (this.wanted) {
+      const { text, path, found, request } = this.wanted;
+      this.wanted = null;
       try {
         const address = await this.page.program.page({ path, text });
-        if (text !== this.page.document.text) return;
+        if (text !== this.page.document.text) continue;
         this.reported = text;
         this.#turn(address);
         this.page.mistakes.told(null);
       } catch (error) {
         const told = error.answer && error.answer.diagnostics;
-        if (!told || text !== this.page.document.text) return this.page.failed(error);
+        if (text !== this.page.document.text) continue;
+        if (!told) { this.page.failed(error); continue; }
         this.page.mistakes.show({ ...found, diagnostics: told }, request);
         this.element("report").classList.add("stale");
       }
-    }, this.reported ? REPORT : 0);
+    }
+    this.isMaking = false;
   }
 
   /** Another page in place of the one that is shown, when it is there, at the place that was read. */
