@@ -47,6 +47,12 @@ async function answered(page, act) {
 }
 const field = (page, label) => page.getByLabel(label, { exact: true });
 const until = (page, check, argument) => page.waitForFunction(check, argument, { timeout: 20000 });
+/** What axe-core says against the page as it stands. */
+async function violations(page) {
+  await page.evaluate(await readFile(axe, "utf8") + ";window.axe = axe;0");
+  const found = await page.evaluate(() => window.axe.run(document, { runOnly: ["wcag2a", "wcag2aa", "wcag21a", "wcag21aa", "wcag22aa", "best-practice"] }));
+  return found.violations.map(of => `${of.id}: ${of.help}\n    ${of.nodes.slice(0, 3).map(node => node.html.slice(0, 160)).join("\n    ")}`);
+}
 const source = page => page.evaluate(() => document.getElementById("source").value);
 
 await test("the resistor of the README from nothing, with the command line's digits", async (page, folder) => {
@@ -168,6 +174,76 @@ await test("a certificate is shown and exported as DCC", async page => {
   const dcc = await exported(page, "Digital Calibration");
   assert.match(dcc.bytes.toString(), /<dcc:digitalCalibrationCertificate/);
 }, { open: "certificates/three_axis_accelerometer.json", files: [["models", "."]] });
+
+const CERTIFICATE = { files: [["models/examples/power.json", "measured/power.json"], ["models/laboratory/pictures/logo.svg", "logo.svg"]] };
+const EMPTY_CERTIFICATE = '{\n  "format": 1,\n  "rows": []\n}\n';
+
+/** An empty certificate in the folder, opened. */
+async function emptyCertificate(page, folder) {
+  await writeFile(join(folder, "c.json"), EMPTY_CERTIFICATE);
+  await page.click("#open");
+  await page.locator("#dialog .entry", { hasText: "c.json" }).click();
+  await page.locator("#certificate-form details").first().waitFor();
+}
+
+await test("a certificate from nothing, by its fields", async (page, folder) => {
+  await emptyCertificate(page, folder);
+  // nothing is red, and what is missing is said
+  assert.equal(await page.locator("#mistakes li, #certificate-form [aria-invalid]").count(), 0);
+  assert.match(await text(page, "#lacking"), /Add a row: choose a model and one of its outputs/);
+  await shot(page, "certificate-empty", { fullPage: true });
+  await page.locator("#lacking button").first().click();
+  await until(page, () => document.activeElement.dataset.key === "rows#model");
+  await field(page, "Number of the certificate").fill("2026-017");
+  await field(page, "What it is of Device").fill("wattmeter");
+  await field(page, "Serial number of Device").fill("0815");
+  await field(page, "Name of Customer").fill("Rossi & Co <Torino>");
+  await field(page, "City of Customer").fill("Torino");
+  await field(page, "First day of the calibration").fill("2026-03-02");
+  await field(page, "Last day of the calibration").fill("2026-03-03");
+  await field(page, "Add a row").selectOption("measured/power.json");
+  await page.getByRole("button", { name: /^power/ }).click();
+  await field(page, "Nominal value of row 1").fill("251");
+  await page.getByRole("button", { name: /^power/ }).focus();
+  await page.keyboard.press("Enter");
+  await field(page, "Change a value … of row 2").selectOption("voltage");
+  await until(page, () => document.activeElement.getAttribute("aria-label") === "voltage of row 2");
+  await page.keyboard.type("6.0");
+  await field(page, "Name of the row of row 2").fill("at 6 V");
+  const frame = page.frameLocator("#report");
+  await frame.getByText("2026-017").first().waitFor();
+  await frame.getByText("at 6 V").first().waitFor();
+  // columns of one's own
+  await page.locator("summary", { hasText: /^Table$/ }).click();
+  await field(page, "Columns").selectOption("own");
+  await field(page, "Add a column").selectOption({ label: "voltage" });
+  await field(page, "Heading of column 5").fill("Applied voltage");
+  await page.getByLabel("Move voltage up").click();
+  await until(page, () => document.activeElement.getAttribute("aria-label") === "Move voltage up");
+  await page.locator("summary", { hasText: /^Letterhead$/ }).click();
+  await field(page, "Logo").selectOption("logo.svg");
+  await frame.getByText("Applied voltage").first().waitFor();
+  // the page keeps its place
+  await until(page, () => document.querySelectorAll(".pages iframe").length === 1);
+  await page.evaluate(() => document.getElementById("report").contentWindow.scrollTo(0, 300));
+  await field(page, "Responsible person").fill("A. Metrologist");
+  await frame.getByText("A. Metrologist").first().waitFor();
+  await until(page, () => document.querySelectorAll(".pages iframe").length === 1 && document.getElementById("report").contentWindow.scrollY === 300);
+  await page.evaluate(() => document.getElementById("report").contentWindow.scrollTo(0, 0));
+  assert.deepEqual(await violations(page), []);
+  await shot(page, "certificate-form", { fullPage: true });
+  await until(page, () => document.getElementById("state").textContent === "saved");
+  const written = JSON.parse(await readFile(join(folder, "c.json"), "utf8"));
+  assert.deepEqual(written.rows, [
+    { model: "measured/power.json", output: "power", nominal: 251 },
+    { model: "measured/power.json", output: "power", set: { voltage: 6.0 }, label: "at 6 V" },
+  ]);
+  assert.deepEqual(written.calibration_date, ["2026-03-02", "2026-03-03"]);
+  assert.equal(written.device.serial_number, "0815");
+  const told = execFileSync(process.env.GUMPTION, ["certificate", join(folder, "c.json"), "--quiet"]).toString();
+  assert.match(told, /Rossi & Co <Torino>/);
+  assert.match(told, /Applied voltage/);
+}, CERTIFICATE);
 
 await test("a gap case is shown with its diagnosis", async page => {
   await until(page, () => (document.getElementById("report").src || "").includes("api/page"));
@@ -455,12 +531,7 @@ for (const [name, colorScheme] of [["light", "light"], ["dark", "dark"]]) {
     await refined(page);
     await until(page, () => document.querySelector("#part-audit table") !== null);
     await page.click("#more summary");
-    const look = async state => {
-      await page.evaluate(await readFile(axe, "utf8") + ";window.axe = axe;0");
-      const found = await page.evaluate(() => window.axe.run(document, { runOnly: ["wcag2a", "wcag2aa", "wcag21a", "wcag21aa", "wcag22aa", "best-practice"] }));
-      const told = found.violations.map(of => `${of.id}: ${of.help}\n    ${of.nodes.slice(0, 3).map(node => node.html.slice(0, 160)).join("\n    ")}`);
-      assert.deepEqual(told, [], state);
-    };
+    const look = async state => assert.deepEqual(await violations(page), [], state);
     await look("with results");
     await page.fill("#equations", "power = voltage^2/resistanse");
     await until(page, () => document.querySelectorAll("#mistakes li").length > 0);
@@ -497,11 +568,15 @@ await test("a row of a sweep is chosen, and has headline and budget", async page
 
 await test("mistakes of a certificate are underlined, and mended there", async page => {
   await until(page, () => (document.getElementById("report").src || "").includes("api/page"));
+  await page.click("#view-text");
   const whole = await source(page);
   await answered(page, () => page.fill("#source", whole.replace('"output": "R"', '"output": "Q"')));
   await until(page, () => (document.querySelector("#source-box mark") || {}).textContent === '"Q"');
   assert.match(await text(page, "#mistakes"), /`Q`/);
   await shot(page, "certificate-mistake");
+  await page.click("#view-form");
+  assert.equal(await field(page, "Result of row 1").getAttribute("aria-invalid"), "true");
+  await page.click("#view-text");
   await answered(page, () => page.fill("#source", whole));
   await until(page, () => document.querySelectorAll("#mistakes li").length === 0);
 }, { open: "certificate.json", files: [["models/examples", "."]] });
@@ -751,6 +826,74 @@ await test("a case on a phone, dark, in German", async page => {
   assert.deepEqual(told.violations.map(of => `${of.id}: ${of.nodes.slice(0, 3).map(node => node.html.slice(0, 160)).join("\n    ")}`), []);
   await shot(page, "case-phone", { fullPage: true });
 }, { lang: "de", viewport: { width: 390, height: 844 }, colorScheme: "dark" });
+await test("a certificate in German on a phone, in two languages", async (page, folder) => {
+  await emptyCertificate(page, folder);
+  await field(page, "Zeile hinzufügen").selectOption("measured/power.json");
+  await page.getByRole("button", { name: /^power/ }).click();
+  await page.locator("summary", { hasText: /^Sprachen/ }).click();
+  await field(page, "Gegenstand von Gerät").fill("Leistungsmesser");
+  await page.getByLabel("Deutsch", { exact: true }).last().check();
+  await field(page, "Gegenstand (Deutsch) von Gerät").fill("Leistungsmessgerät");
+  await page.getByLabel("Zuerst:").selectOption("de");
+  await field(page, "Einen Wert ändern … von Zeile 1").selectOption("voltage");
+  await field(page, "voltage von Zeile 1").fill("6,5");
+  await until(page, () => document.getElementById("state").textContent === "gespeichert" && document.getElementById("source").value.includes("6.5"));
+  const written = JSON.parse(await source(page));
+  assert.deepEqual([written.language, written.device.name, written.rows[0].set], [["de", "en"], { en: "Leistungsmesser", de: "Leistungsmessgerät" }, { voltage: 6.5 }]);
+  // fewer languages take no text away
+  await page.getByLabel("Englisch", { exact: true }).last().uncheck();
+  await until(page, () => JSON.parse(document.getElementById("source").value).language === "de");
+  assert.equal(await field(page, "Gegenstand (Englisch) von Gerät").inputValue(), "Leistungsmesser");
+  await page.frameLocator("#report").getByText("Leistungsmessgerät").first().waitFor();
+  for (const summary of ["Tabelle", "Briefkopf", "Weitere Einstellungen"]) await page.locator("summary", { hasText: new RegExp(`^${summary}$`) }).click();
+  const wide = await page.evaluate(() => document.documentElement.scrollWidth);
+  assert(wide <= 390, `the page is ${wide} wide`);
+  assert.deepEqual(await english(page), []);
+  assert.deepEqual(await violations(page), []);
+  await shot(page, "certificate-german-phone", { fullPage: true });
+}, { ...CERTIFICATE, lang: "de", viewport: { width: 390, height: 844 } });
+
+await test("a certificate from a result", async (page, folder) => {
+  await mkdir(join(folder, "certificates"));
+  await writeFile(join(folder, ".gumption-root"), "");
+  await refined(page);
+  await page.click("#certify");
+  await page.frameLocator("#report").getByText("251.1").first().waitFor();
+  await shot(page, "certificate-from-result");
+  // from another folder the model has another path
+  await page.keyboard.press("Control+s");
+  await page.locator("#dialog input").fill("certificates/c.json");
+  await page.locator("#dialog-actions button").first().click();
+  await until(page, () => document.getElementById("state").textContent === "saved");
+  assert.deepEqual(JSON.parse(await readFile(join(folder, "certificates/c.json"), "utf8")).rows, [{ model: "../power.json", output: "power" }]);
+  execFileSync(process.env.GUMPTION, ["certificate", join(folder, "certificates/c.json"), "--quiet"]);
+}, POWER);
+
+await test("a certificate keeps what its form cannot say", async (page, folder) => {
+  const whole = `{
+  "device": "meter", "customer": "Rossi", "laboratory": {"name": "L"}, "remarks": ["a", "b"],
+  "issue_date": "2026-13-01",
+  "layout": {"tables": [{"name": "t", "columns": ["power"]}, {"name": "u", "columns": ["power", "U"]}]},
+  "rows": [{"model": "power.json", "output": "power", "table": "t", "set": {"voltage": "5 V"}}, {"model": "power.json", "output": "power", "table": "u"}]
+}`;
+  await writeFile(join(folder, "c.json"), whole);
+  await page.click("#open");
+  await page.locator("#dialog .entry", { hasText: "c.json" }).click();
+  await field(page, "What it is of Device").waitFor();
+  assert.equal(await field(page, "Name of Customer").inputValue(), "Rossi");
+  assert.equal(await field(page, "Issued on").inputValue(), "2026-13-01");
+  await page.locator("summary", { hasText: /^Table$/ }).click();
+  assert.match(await text(page, "#certificate-form"), /has 2 tables/);
+  await field(page, "City of Customer").pressSequentially("Roma");
+  await field(page, "Issued on").fill("2026-03-01");
+  await until(page, () => document.getElementById("state").textContent === "saved" && document.getElementById("source").value.includes("2026-03-01"));
+  await field(page, "voltage of row 1").fill("5.5 V");
+  await page.getByLabel("Move row 2 up").click();
+  await until(page, () => /"u"}, {"model"/.test(document.getElementById("source").value));
+  const expected = whole.replace('"customer": "Rossi"', '"customer": {"city": "Roma", "name": "Rossi"}').replace("2026-13-01", "2026-03-01")
+    .replace(/"rows".*/, '"rows": [{"model": "power.json", "output": "power", "table": "u"}, {"model": "power.json", "output": "power", "table": "t", "set": {"voltage": "5.5 V"}}]');
+  assert.equal((await source(page)).replace('"name": "Rossi", "city": "Roma"', '"city": "Roma", "name": "Rossi"'), expected);
+}, { ...POWER, open: "" });
 
 await test("speed with 20 inputs", async page => {
   const inputs = {}, terms = [];

@@ -7,10 +7,13 @@ use std::sync::Arc;
 use super::context::Context;
 use super::model_reader::{ModelOptions, read_with};
 use super::model_readings::ModelReadings;
-use super::open::open;
+use super::open::{open, text};
 use super::overrides::Override;
+use super::readings_file::NewReadings;
 use gumption_engine::task::{Evidence, Task, Warning};
-use gumption_text::{Diagnostic, DiagnosticKind, Diagnostics, SourceText};
+use gumption_text::{
+    Diagnostic, DiagnosticKind, Diagnostics, FileSource, Folder, SourceText, bytes,
+};
 
 /// A model file that was read and found right.
 #[derive(Debug)]
@@ -29,6 +32,22 @@ pub struct ModelFile {
     pub evidence: Vec<Evidence>,
     /// Which inputs have readings.
     pub readings: ModelReadings,
+}
+
+/// The files beside a model that lies in another folder than the file that names it.
+#[derive(Debug)]
+struct FilesBeside<'a> {
+    above: &'a str,
+    source: &'a dyn FileSource,
+}
+
+impl FileSource for FilesBeside<'_> {
+    fn content(&self, name: &str, most: u64) -> Result<Vec<u8>, String> {
+        match self.above {
+            "" => self.source.content(name, most),
+            above => self.source.content(&format!("{above}/{name}"), most),
+        }
+    }
 }
 
 /// Reads and checks a model file.
@@ -50,6 +69,31 @@ pub(super) fn read_text(
 ) -> Result<ModelFile, Diagnostics> {
     let options = ModelOptions { files, overrides, at: None };
     read_with(name, text, folder, options, |reader| Some(reader.found()?.file))
+}
+
+/// A model file that a file of a folder names: from memory, from a source or from the disk; or why
+/// there is none.
+pub(super) fn named(
+    files: Context<'_>,
+    folder: Folder<'_>,
+    name: &str,
+    overrides: &[Override],
+) -> Result<Result<ModelFile, Diagnostics>, DiagnosticKind> {
+    let readings = files.readings.map(|new| NewReadings { model: Some(name), ..new });
+    let files = Context { readings, ..files };
+    if !folder.holds(name) {
+        return Ok(read(files, &folder.file(name)?, overrides));
+    }
+    let content = folder.content(name, bytes::MOST)?;
+    let text = text(content).map_err(|message| DiagnosticKind::Unreadable { message })?;
+    // what it names lies beside it
+    let above = name.rsplit_once('/').map_or("", |(above, _)| above);
+    let beside = folder.source().map(|source| FilesBeside { above, source });
+    let files = match &beside {
+        Some(beside) => Context { source: Some(beside), ..files },
+        None => files,
+    };
+    Ok(read_text(files, name, &text, Path::new(above), overrides))
 }
 
 impl ModelFile {

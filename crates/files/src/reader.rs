@@ -138,6 +138,15 @@ impl<'c> FileReader<'c> {
         model_file::read_text(self.0, name, text, folder, overrides)
     }
 
+    /// A model file that a file of this folder names.
+    pub fn named_model(self, name: &str, folder: &Path) -> Result<ModelFile, String> {
+        match model_file::named(self.0, self.0.folder(folder), name, &[]) {
+            Ok(Ok(file)) => Ok(file),
+            Ok(Err(found)) => Err(found.0.first().map_or_else(String::new, |of| of.message())),
+            Err(reason) => Err(reason.to_string()),
+        }
+    }
+
     /// A model file or a saved result: a file with the key `result` is one.
     pub fn either(self, path: &Path) -> Result<ModelOrResult, Diagnostics> {
         open(path, |name, text, folder| self.either_text(name, text, folder))

@@ -82,7 +82,7 @@ export class Diagnosis {
       if (this.running !== running) return;
       this.running = null;
       this.done = { text, answer: made.answer };
-      this.element("report").src = made.address;
+      this.page.result.turn(made.address);
       this.page.mistakes.told(null);
     } catch (error) {
       if (this.running !== running) return;

@@ -28,10 +28,11 @@ export class Fields {
     const field = key && this.fields.get(key);
     if (!field) return;
     field.focus();
-    if (typed && field.tagName === "INPUT") {
+    if (typed && ["INPUT", "TEXTAREA"].includes(field.tagName)) {
       field.isTyped = true;
       field.value = typed[0];
-      field.setSelectionRange(typed[1], typed[2]);
+      // a day has no place of the cursor
+      if (typed[1] !== null && field.selectionStart !== null) field.setSelectionRange(typed[1], typed[2]);
     }
   }
 
@@ -144,7 +145,7 @@ export class Fields {
   mark(diagnostics) {
     const wrong = new Map();
     for (const of of diagnostics) {
-      for (let length = of.path.length; length > 1; length--) {
+      for (let length = of.path.length; length > 0; length--) {
         const key = at(of.path.slice(0, length));
         const field = this.fields.get(key) || this.fields.get(key + "#choice") || this.fields.get(key + "#name");
         if (field && "value" in field) { wrong.set(field, of.message); break; }

@@ -69,6 +69,22 @@ export class Files {
     } catch (error) { this.page.failed(error); }
   }
 
+  /** A certificate whose rows are all outputs of the open model. */
+  async certify() {
+    await this.page.settled();
+    const { document, program, found } = this.page;
+    if (program.hasFolder && (document.path === null || !document.isSaved)) await this.save();
+    if (program.hasFolder ? !document.isSaved || document.path === null : !await this.mayLeave()) return;
+    try {
+      const model = document.path || this.page.named || "model.json";
+      if (!program.hasFolder) await program.hold(model, new TextEncoder().encode(document.text).buffer);
+      const rows = found.outputs.map(({ name: output }) => ({ model, output }));
+      const { text } = await program.call("new", { kind: "certificate" });
+      const made = await program.call("edit", { text, edits: [{ path: ["rows"], value: rows }] });
+      this.take(made.text, null, null);
+    } catch (error) { this.page.failed(error); }
+  }
+
   async autosave() {
     const { path, isSaved } = this.page.document;
     if (path === null || isSaved || !this.page.program.hasFolder) return;
@@ -84,7 +100,11 @@ export class Files {
     if (this.page.document.path === null) {
       const name = await this.askName();
       if (!name) return;
-      this.page.document.path = name.endsWith(".json") ? name : `${name}.json`;
+      const path = name.endsWith(".json") ? name : `${name}.json`;
+      // what the file names is found from its own folder
+      for (const form of this.page.shownForms) if (form.moved) form.moved(path);
+      await this.page.settled();
+      this.page.document.path = path;
       this.page.document.version = null;
     }
     if (this.isSaving) return;
@@ -105,7 +125,7 @@ export class Files {
 
   async askName() {
     const { words } = this;
-    const title = (this.page.found && this.page.found.title || "model").toLowerCase().normalize("NFKD").replace(/[^\p{L}\p{N}]+/gu, "_").replace(/^_|_$/g, "") || "model";
+    const title = (this.page.found && this.page.found.title || this.page.kind).toLowerCase().normalize("NFKD").replace(/[^\p{L}\p{N}]+/gu, "_").replace(/^_|_$/g, "") || "model";
     const field = make("input", { value: `${title}.json`, size: 36 });
     const body = make("label", {}, words.save_name + " ", field);
     const chosen = await this.page.dialog.choose(words.save_title, body, [[words.save, "save"], [words.cancel, null]]);
@@ -142,7 +162,7 @@ export class Files {
   async onDisk({ path, version }) {
     if (path !== this.page.document.path) {
       // a table that the model names
-      if (this.page.document.path !== null) { this.page.result.reported = null; this.page.ask(); }
+      if (this.page.document.path !== null || this.page.kind === "certificate") { this.page.result.reported = null; this.page.ask(); }
       return;
     }
     if (version === this.page.document.version || this.isSaving) return;
@@ -158,7 +178,7 @@ export class Files {
     const { words } = this;
     if (!await this.mayLeave()) return;
     const { files } = await this.page.program.ask("files", {});
-    const shown = files.filter(file => file.kind !== "other");
+    const shown = files.filter(file => !["other", "picture"].includes(file.kind));
     const body = make("div", { class: "list" });
     const list = filter => shown.filter(file => `${file.path} ${file.title || ""}`.toLowerCase().includes(filter)).map(file =>
       make("button", { type: "button", class: "entry", onclick: () => this.page.dialog.close(file.path) },
@@ -228,6 +248,7 @@ export class Files {
     const { words } = this;
     const isJson = file => /\.json$/i.test(file.name);
     try {
+      if (this.page.kind === "certificate" && !this.page.program.hasFolder && await this.#forCertificate(files)) return;
       const texts = new Map();
       for (const file of files.filter(isJson)) texts.set(file, await file.text());
       const held = file => this.page.document.text.includes(file.name) || [...texts].some(([of, text]) => of !== file && text.includes(file.name));
@@ -248,6 +269,17 @@ export class Files {
       if (others.length && !this.page.program.hasFolder) this.say("state", words.drop_held(others.join(", ")));
       this.page.result.reported = null;
     } catch (error) { this.page.failed(error); }
+  }
+
+  /** Whether files are for the certificate that is open. */
+  async #forCertificate(files) {
+    const { certificate: said } = this.words;
+    const names = files.map(file => file.name).join(", ");
+    const isOpened = files.some(file => /\.(json|xlsx)$/i.test(file.name));
+    if (isOpened && await this.page.dialog.choose(said.hold_title, make("p", {}, said.hold(names)), [[said.hold_use, "use"], [said.hold_open, null]]) !== "use") return false;
+    for (const form of this.page.forms.certificate) await form.take(files);
+    this.say("state", this.words.drop_held(names));
+    return true;
   }
 
   /** A table: one of results to be compared is opened, a budget imported. */

@@ -40,7 +40,7 @@ export class Mistakes {
     if (list.dataset.shown === key) return;
     list.dataset.shown = key;
     list.replaceChildren(...items.map(([of, message, place], number) => make("li", {},
-      place ? make("button", { type: "button", onclick: () => this.#goTo(this.diagnostics[isNoEquation ? number - 1 : number]) }, place) : null,
+      place ? make("button", { type: "button", onclick: () => this.goTo(this.diagnostics[isNoEquation ? number - 1 : number]) }, place) : null,
       " " + message)));
   }
 
@@ -69,7 +69,7 @@ export class Mistakes {
       const [of] = path;
       const field = path.length === 1 ? this.element(of === "equations" ? "equations" : "unreported") : this.#field(path);
       const name = path.length === 1 ? words.open_list[of] : field ? field.getAttribute("aria-label") : path[path.length - 1];
-      const go = make("button", { type: "button", class: "chip", onclick: () => this.#goTo({ path }) }, name);
+      const go = make("button", { type: "button", class: "chip", onclick: () => this.goTo({ path }) }, name);
       const use = suggestion ? make("button", { type: "button", class: "chip", onclick: () => this.page.edit([{ path, value: suggestion }]) }, words.use_unit(suggestion)) : null;
       return [go, use];
     });
@@ -78,7 +78,7 @@ export class Mistakes {
   }
 
   /** Goes to the place of a mistake. */
-  #goTo(of) {
+  goTo(of) {
     if (!of) return;
     if (!this.page.isText) {
       if (of.path.length === 1) {
@@ -94,8 +94,7 @@ export class Mistakes {
       }
       const field = this.#field(of.path);
       if (field) {
-        const folded = field.closest("details");
-        if (folded) folded.open = true;
+        for (let folded = field.closest("details"); folded; folded = folded.parentElement.closest("details")) folded.open = true;
         return field.focus();
       }
       this.page.show("text");

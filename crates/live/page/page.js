@@ -2,6 +2,7 @@
 
 import { Answers } from "./answers.js";
 import { CaseForm } from "./case.js";
+import { CertificateForm } from "./certificate.js";
 import { Code } from "./code.js";
 import { Diagnosis } from "./diagnosis.js";
 import { Dialog } from "./dialog.js";
@@ -46,7 +47,7 @@ class Page {
     // the forms of each kind of file; files of other kinds are edited as text
     this.caseForm = new CaseForm(this);
     this.diagnosis = new Diagnosis(this);
-    this.forms = { model: [this.form], case: [this.form, this.caseForm] };
+    this.forms = { model: [this.form], case: [this.form, this.caseForm], certificate: [new CertificateForm(this)] };
     this.language = pickLanguage(program.hello.lang);
     this.words = this.language === "de" ? de : en;
     this.hasFile = false;
@@ -276,6 +277,7 @@ class Page {
     if (force) this.force = false;
     this.kind = found.kind;
     const isModel = found.kind === "model";
+    this.element("editor-title").textContent = found.kind === "certificate" ? this.words.certificate.certificate : this.words.measurement;
     this.element("view-form").disabled = !this.forms[found.kind];
     this.show(this.view);
     if (found.inputs !== undefined) {
@@ -288,6 +290,7 @@ class Page {
       model.replaceChildren(...(found.model ? [`${this.words.model_is} ${found.model}`, ...(found.statement || []).map(([name, formula]) => make("code", {}, `${name} = ${formula}`))] : []));
     }
     for (const form of this.shownForms) form.show(found, force);
+    this.element("certify").hidden = !isModel || (found.results || []).length === 0;
     this.mistakes.show(found, request);
     if (this.isBegun) this.result.wait();
     else if (isModel) this.result.results(found);
@@ -321,6 +324,7 @@ class Page {
     }
     for (const element of document.querySelectorAll("[data-w-placeholder]")) element.placeholder = this.words[element.dataset.wPlaceholder];
     for (const element of document.querySelectorAll("[data-w-title]")) element.title = this.words[element.dataset.wTitle];
+    this.element("certify").textContent = this.words.certificate.from_result;
     this.element("language").value = this.language;
   }
 
@@ -353,6 +357,7 @@ class Page {
     on("view-text", "click", () => toView("text"));
     on("undo", "click", () => this.undo());
     on("redo", "click", () => this.redo());
+    on("certify", "click", () => this.files.certify());
     on("save", "click", () => this.files.save());
     on("open", "click", () => this.files.openDialog());
     on("export", "click", () => this.files.exportDialog());

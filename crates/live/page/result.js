@@ -3,6 +3,7 @@
 import { grouped, make, printed, put, unit } from "./parts.js";
 
 const SPEAK = 900;
+const REPORT = 500;
 
 export class Result {
   constructor(page) {
@@ -18,6 +19,7 @@ export class Result {
     this.reported = null;
     // what the last full answer stated
     this.stated = null;
+    this.hasPage = false;
     this.element("box-audit").hidden = true;
     this.element("results").hidden = true;
     this.#bar();
@@ -56,6 +58,7 @@ export class Result {
     const { words } = this;
     this.element("report").hidden = true;
     this.page.diagnosis.clear();
+    this.element("lacking").hidden = true;
     const has = found.results !== undefined;
     const results = this.element("results");
     this.isBefore = !has;
@@ -189,6 +192,19 @@ export class Result {
     put(this.element("part-audit"), found.html || "");
   }
 
+  /** What a certificate lacks is said in place of its page. */
+  #lacking(found) {
+    const place = this.element("lacking");
+    const lacks = found.lacking || [];
+    place.hidden = lacks.length === 0;
+    const { lacks: title, lack } = this.words.certificate;
+    const key = JSON.stringify([title, lacks]);
+    if (place.dataset.key === key) return;
+    place.dataset.key = key;
+    place.replaceChildren(make("p", {}, title), make("ul", {}, ...lacks.map(path => make("li", {},
+      make("button", { type: "button", class: "link", onclick: () => this.page.mistakes.goTo({ path }) }, lack[path[0]])))));
+  }
+
   /** The page of a case, a certificate, a comparison or a recipe. */
   report(found, request) {
     this.element("results").hidden = true;
@@ -197,28 +213,68 @@ export class Result {
     this.element("nothing").hidden = true;
     if (found.kind === "case") return this.page.diagnosis.show(found, request);
     this.page.diagnosis.clear();
+    this.#lacking(found);
     const frame = this.element("report");
+    const lacks = (found.lacking || []).length > 0;
     if (["other", "costs", "result"].includes(found.kind)) { frame.hidden = true; return; }
-    frame.hidden = false;
+    frame.hidden = (lacks || found.diagnostics.length > 0) && !this.hasPage;
     clearTimeout(this.reporter);
     const { text, path } = request;
     // what was true before the mistake stays there
-    frame.classList.toggle("stale", found.diagnostics.length > 0);
-    if (this.reported === text || found.diagnostics.length) return;
-    this.reporter = setTimeout(async () => {
+    frame.classList.toggle("stale", found.diagnostics.length > 0 || lacks);
+    this.wanted = null;
+    if (this.reported === text || found.diagnostics.length || lacks) return;
+    this.wanted = { text, path, found, request };
+    this.reporter = setTimeout(() => this.#make(), this.reported ? REPORT : 0);
+  }
+
+  /** Makes the page that is wanted; one after the other, since they take a while. */
+  async #make() {
+    if (this.isMaking) return;
+    this.isMaking = true;
+    while (this.wanted) {
+      const { text, path, found, request } = this.wanted;
+      this.wanted = null;
       try {
         const { address } = await this.page.program.page({ path, text });
-        if (text !== this.page.document.text) return;
+        if (text !== this.page.document.text) continue;
         this.reported = text;
-        frame.src = address;
+        this.turn(address);
         this.page.mistakes.told(null);
       } catch (error) {
         const told = error.answer && error.answer.diagnostics;
-        if (!told || text !== this.page.document.text) return this.page.failed(error);
+        if (text !== this.page.document.text) continue;
+        if (!told) { this.page.failed(error); continue; }
         this.page.mistakes.show({ ...found, diagnostics: told }, request);
-        frame.classList.add("stale");
+        this.element("report").classList.add("stale");
       }
-    }, this.reported ? 900 : 0);
+    }
+    this.isMaking = false;
+  }
+
+  /** Another page in place of the one that is shown, when it is there, at the place that was read. */
+  turn(address) {
+    const shown = this.element("report");
+    if (this.coming) this.coming.remove();
+    this.coming = null;
+    if (!this.hasPage) { shown.src = address; this.hasPage = true; return; }
+    const next = shown.cloneNode();
+    next.removeAttribute("id");
+    next.classList.add("coming");
+    next.src = address;
+    next.onload = () => {
+      if (this.coming !== next) return;
+      this.coming = null;
+      try { next.contentWindow.scrollTo(shown.contentWindow.scrollX, shown.contentWindow.scrollY); } catch { /* another origin */ }
+      next.className = "";
+      next.title = shown.title;
+      if (shown.src.startsWith("blob:")) URL.revokeObjectURL(shown.src);
+      shown.remove();
+      next.id = "report";
+      next.hidden = false;
+    };
+    this.coming = next;
+    shown.after(next);
   }
 }
 

@@ -149,7 +149,7 @@ class Alone {
   }
 
   async ask(name) {
-    if (name === "files") return { root: "", files: [], open: null };
+    if (name === "files") return this.call("files", {});
     throw new Refused(404, { error: name });
   }
 

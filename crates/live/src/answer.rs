@@ -20,7 +20,7 @@ use std::path::Path;
 
 use crate::edit::{Edit, edited};
 use crate::tree::{self, path_of};
-use crate::{LiveError, diagnostics, inputs, limited, open, outputs, table};
+use crate::{LiveError, certificate, diagnostics, inputs, limited, open, outputs, table};
 use gumption_report::words::Language;
 
 /// Maximum number of trials over all rows, up to which the page refines in the background. The
@@ -93,11 +93,19 @@ pub(crate) fn answer(
                 answer["diagnostics"] = diagnostics::list(text, found);
             }
             answer["content"] = root.as_ref().map_or(Json::Null, |root| tree::content(bare, root));
-            // the model of a case has the fields of any model
-            if let Some(root) = root.as_ref().filter(|_| kind == TextKind::Case) {
-                let case = found.as_ref().ok().and_then(Option::as_ref);
-                fields(&mut answer, bare, root, case.map(|file| &file.case.task));
-                answer["data"] = table::of_case(bare, root, folder);
+            match (other, &root) {
+                (TextKind::Certificate, Some(root)) => {
+                    answer["models"] = certificate::models(files, root);
+                    let lacking = certificate::lacking(root, &mut answer["diagnostics"]);
+                    answer["lacking"] = json!(lacking);
+                }
+                // the model of a case has the fields of any model
+                (TextKind::Case, Some(root)) => {
+                    let case = found.as_ref().ok().and_then(Option::as_ref);
+                    fields(&mut answer, bare, root, case.map(|file| &file.case.task));
+                    answer["data"] = table::of_case(bare, root, folder);
+                }
+                _ => {}
             }
             return Ok(answer);
         }

@@ -33,6 +33,9 @@ pub(crate) struct Edit {
     /// The index among its neighbours at which a new element is inserted; by default the end.
     #[serde(default)]
     before: Option<usize>,
+    /// The index of the neighbour in its list with which an element changes places.
+    #[serde(default)]
+    exchange: Option<usize>,
     /// The wanted members of an object, in this order; unchanged members stay untouched.
     #[serde(default)]
     members: Option<Vec<(String, serde_json::Value)>>,
@@ -72,7 +75,7 @@ impl Edit {
 
     fn of(path: Vec<PathStep>) -> Self {
         let (value, typed, rename, members) = (None, None, None, None);
-        Self { path, value, typed, remove: false, rename, before: None, members }
+        Self { path, value, typed, remove: false, rename, before: None, exchange: None, members }
     }
 
     fn path(&self) -> String {
@@ -112,6 +115,9 @@ fn one(text: &str, edit: &Edit) -> Result<String, String> {
     if edit.remove {
         let cut = removed(&root, &edit.path).ok_or_else(nothing)?;
         return Ok(spliced(text, cut, ""));
+    }
+    if let Some(with) = edit.exchange {
+        return exchanged(text, &root, &edit.path, with).ok_or_else(nothing);
     }
     if let Some(name) = &edit.rename {
         return renamed(text, &root, edit, name);
@@ -188,6 +194,19 @@ fn container<'v, 't>(
 ) -> Option<(&'v Value<'t>, &'v PathStep)> {
     let (last, above) = path.split_last()?;
     Some((tree::at(root, above)?, last))
+}
+
+/// The text with two elements of a list in each other's place.
+fn exchanged(text: &str, root: &Value<'_>, path: &[PathStep], with: usize) -> Option<String> {
+    let (Value::Array(array), PathStep::Place(place)) = container(root, path)? else { return None };
+    let ranges = ranges(&array.elements);
+    let (first, second) = (ranges.get(*place.min(&with))?, ranges.get(*place.max(&with))?);
+    if first == second {
+        return Some(text.to_owned());
+    }
+    let own = |range: &Range<usize>| text.get(range.clone()).unwrap_or("");
+    let after = spliced(text, second.clone(), own(first));
+    Some(spliced(&after, first.clone(), own(second)))
 }
 
 /// The range to remove with a value: its key, and a comma.
@@ -271,7 +290,9 @@ fn put_into_object(
 }
 
 fn put_into_array(text: &str, array: &Array<'_>, value: &str, before: Option<usize>) -> String {
-    put(text, array.start()..array.end(), &ranges(&array.elements), value, before, false)
+    // an object is an element of its own, numbers and texts are those of a list
+    let own_lines = value.starts_with('{');
+    put(text, array.start()..array.end(), &ranges(&array.elements), value, before, own_lines)
 }
 
 fn put(

@@ -42,7 +42,7 @@ impl EmptyKind {
 const EMPTY: &str = "{\n  \"format\": 1,\n  \"title\": \"\",\n  \"inputs\": {},\n  \"equations\": {},\n  \"outputs\": {}\n}\n";
 
 /// A certificate without rows.
-const EMPTY_CERTIFICATE: &str = "{\n  \"format\": 1,\n  \"number\": \"\",\n  \"device\": {},\n  \"customer\": {},\n  \"laboratory\": {},\n  \"rows\": []\n}\n";
+const EMPTY_CERTIFICATE: &str = "{\n  \"format\": 1,\n  \"rows\": []\n}\n";
 
 /// A case of the gap diagnosis without data.
 const EMPTY_CASE: &str = "{\n  \"format\": 1,\n  \"title\": \"\",\n  \"inputs\": {},\n  \"conditions\": {},\n  \"equations\": {},\n  \"outputs\": {},\n  \"observations\": {},\n  \"effects\": {}\n}\n";

@@ -7,7 +7,9 @@
 
 mod answer;
 mod audit;
+mod certificate;
 mod controls;
+mod description;
 mod diagnostics;
 mod edit;
 mod examples;
@@ -39,6 +41,7 @@ use gumption_files::FileReader;
 use serde::de::DeserializeOwned;
 use serde_json::json;
 
+pub use description::FileDescription;
 pub use diagnostics::mistakes;
 pub use gumption_text::FileSource;
 pub use held::HeldFiles;
@@ -91,7 +94,7 @@ impl<'a> Live<'a> {
     ///
     /// | call | request | answer |
     /// |---|---|---|
-    /// | `answer` | `text`, `name`, `edits`, `trials`, `full`, `narrow`, `output`, `row`, `lang` | errors; or inputs, outputs, results, parts of the page |
+    /// | `answer` | `text`, `name`, `edits`, `trials`, `full`, `narrow`, `output`, `row`, `lang` | errors; or inputs, outputs, results, parts of the page; of a certificate the models of its rows |
     /// | `audit` | `text`, `name`, `lang` | `html`: what the Type B assumptions decide |
     /// | `edit` | `text`, `edits` | `text` |
     /// | `reshape` | `text`, `path`, `way`, `kept` | `text` with another way in which an input is known |
@@ -101,6 +104,7 @@ impl<'a> Live<'a> {
     /// | `effects` | | the ready-made effects of cases |
     /// | `table` | `text` | headings and numbers of a pasted table |
     /// | `contents` | `file` | `columns`, `quantities` or `outputs` of a file that an input can name |
+    /// | `model` | `model`: a name as a certificate has it | its outputs, inputs, conditions |
     /// | `import` | `name`, `base64`, `options`, `lang` | `sheet`: its cells; `text`, `notes`; or `questions`, `mistakes` |
     ///
     /// # Errors
@@ -126,6 +130,7 @@ impl<'a> Live<'a> {
             "examples" => gallery::list(self),
             "kinds" => kinds::all(),
             "contents" => named::contents(files, folder, &asked(request)?)?,
+            "model" => certificate::contents(files, &asked(request)?),
             "effects" => json!(gumption_files::catalogue().effects),
             "table" => table::pasted(&asked(request)?)?,
             "import" => import::imported(&asked(request)?)?,

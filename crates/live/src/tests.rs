@@ -535,3 +535,44 @@ fn a_change_and_its_answer_are_one_call() {
     let wrong = json!({"text": POWER, "edits": [{"path": ["no", "such"], "remove": true}]});
     assert!(try_call("answer", &wrong, &HeldFiles::default()).is_err());
 }
+
+/// The form of a certificate learns what the models of its rows hold, and what is still missing is no
+/// error.
+#[test]
+fn a_certificate_tells_what_its_models_hold() {
+    let held = HeldFiles(vec![("power.json".to_owned(), POWER.as_bytes().to_vec())]);
+    let of = |text: &str| try_call("answer", &json!({ "text": text }), &held).unwrap();
+    let empty = call("new", &json!({ "kind": "certificate" }));
+    let found = of(empty["text"].as_str().unwrap());
+    assert_eq!(
+        [&found["kind"], &found["diagnostics"], &found["lacking"]],
+        [&json!("certificate"), &json!([]), &json!([["rows"]])]
+    );
+    let found = of(
+        r#"{"device": {}, "rows": [{"model": "power.json", "output": "q"}, {"model": "no.json", "output": "q"}]}"#,
+    );
+    assert_eq!(found["lacking"], json!([["device", "name"]]));
+    assert_eq!(found["diagnostics"].as_array().unwrap().len(), 2, "{found}");
+    let power = &found["models"]["power.json"];
+    assert_eq!(
+        power["outputs"],
+        json!([{"name": "power", "unit": "mW", "about": "", "tolerance": false}])
+    );
+    assert_eq!(power["inputs"][1]["readings"], json!(true));
+    assert_eq!([&power["sweep"], &power["rows"]], [&json!(false), &json!(1)]);
+    let missing = found["models"]["no.json"]["error"].as_str().unwrap();
+    assert!(missing.contains("it is not there"), "{missing}");
+    let contents = try_call("model", &json!({ "model": "power.json" }), &held).unwrap();
+    assert_eq!(&contents, power);
+}
+
+#[test]
+fn elements_of_a_list_change_places() {
+    let text = "{\"rows\": [{\"a\": 1}, // first\n  {\"b\": 2.0}, 3]}";
+    let edits = json!([{"path": ["rows", 1], "exchange": 0}]);
+    let found = call("edit", &json!({ "text": text, "edits": edits }));
+    assert_eq!(found["text"], "{\"rows\": [{\"b\": 2.0}, // first\n  {\"a\": 1}, 3]}");
+    let edits = json!([{"path": ["rows", 1], "exchange": 9}]);
+    let request = json!({ "text": text, "edits": edits });
+    assert!(try_call("edit", &request, &HeldFiles::default()).is_err());
+}

@@ -29,8 +29,13 @@ const POLICY: &str = "default-src 'none'; script-src 'self' 'wasm-unsafe-eval'; 
                       frame-src 'self'; frame-ancestors 'self'; base-uri 'none'; \
                       form-action 'none'";
 
-/// Policy for report pages: show their own styles and pictures, whoever opens them.
-pub(crate) const POLICY_OF_REPORTS: &str = "sandbox; default-src 'none'; style-src 'unsafe-inline'; img-src data:; frame-ancestors 'self'; \
+/// Policy for files that are downloaded: one that is opened instead shows its own styles and pictures.
+pub(crate) const POLICY_OF_DOWNLOADS: &str = "sandbox; default-src 'none'; style-src 'unsafe-inline'; img-src data:; frame-ancestors 'self'; \
+     base-uri 'none'; form-action 'none'";
+
+/// Policy for report pages: show their own styles and pictures, whoever opens them, and run nothing.
+/// They are of the origin of the live page, so that it can keep their place when they change.
+pub(crate) const POLICY_OF_REPORTS: &str = "sandbox allow-same-origin; default-src 'none'; style-src 'unsafe-inline'; img-src data:; frame-ancestors 'self'; \
      base-uri 'none'; form-action 'none'";
 
 /// The header of every request other than for assets: the secret of the page.

@@ -6,7 +6,7 @@ use std::path::Path;
 use serde::Serialize;
 
 use super::answers::Answers;
-use super::folder::{OpenedFolder, read, words};
+use super::folder::{OpenedFolder, ROOT, read, words};
 
 /// Maximum depth of folders that are listed.
 const DEEPEST: usize = 5;
@@ -39,16 +39,33 @@ struct Listed {
 
 /// Whether the page can use a file, by its extension.
 fn is_wanted(name: &str) -> bool {
-    let extension = name.rsplit_once('.').map(|(_, of)| of.to_ascii_lowercase());
-    matches!(extension.as_deref(), Some("json" | "csv" | "xlsx" | "xml"))
+    matches!(extension(name).as_deref(), Some("json" | "csv" | "xlsx" | "xml")) || is_picture(name)
 }
 
-/// The files below the folder; only those directly in it if a file was opened.
+/// Whether a file is a picture as a letterhead may have it, by its extension.
+fn is_picture(name: &str) -> bool {
+    matches!(extension(name).as_deref(), Some("png" | "svg"))
+}
+
+fn extension(name: &str) -> Option<String> {
+    name.rsplit_once('.').map(|(_, of)| of.to_ascii_lowercase())
+}
+
+/// How deep a folder is listed.
+fn depth(folder: &OpenedFolder) -> usize {
+    let is_whole = folder.named().is_none() || folder.root().join(ROOT).is_file();
+    if is_whole { DEEPEST } else { 0 }
+}
+
+/// The files below the folder; only those directly in it if a file was opened whose folder does not
+/// say that files below it belong together.
 pub(crate) fn listing(folder: &OpenedFolder, answers: &dyn Answers) -> Listing {
     let mut found = FoundPaths { paths: Vec::new(), seen: 0, more: false };
-    let depth = if folder.named().is_some() { 0 } else { DEEPEST };
-    found.look_into(folder.root(), "", depth);
+    found.look_into(folder.root(), "", depth(folder));
     let described = |path: String| {
+        if is_picture(&path) {
+            return Listed { path, kind: "picture", title: None };
+        }
         // unreadable files are listed too: opening them gives the reason
         let content = folder.path(&path).and_then(|path| read(&path, LONGEST));
         let (kind, title) = match content {
@@ -103,5 +120,31 @@ impl FoundPaths {
         for name in folders.into_iter().filter(|_| depth > 0) {
             self.look_into(&folder.join(&name), &format!("{prefix}{name}/"), depth - 1);
         }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_folder_that_belongs_together_is_listed_whole() {
+        let place = tempfile::tempdir().unwrap();
+        fs::create_dir(place.path().join("below")).unwrap();
+        for file in ["m.json", "logo.svg", "below/Mark.PNG", "below/n.json", "x.jpg"] {
+            fs::write(place.path().join(file), "{}").unwrap();
+        }
+        let paths = |opened: &str| {
+            let folder = OpenedFolder::new(&place.path().join(opened)).unwrap();
+            let mut found = FoundPaths { paths: Vec::new(), seen: 0, more: false };
+            found.look_into(folder.root(), "", depth(&folder));
+            found.paths
+        };
+        let all = ["logo.svg", "m.json", "below/Mark.PNG", "below/n.json"];
+        assert_eq!(paths(""), all);
+        assert_eq!(paths("m.json"), all[..2]);
+        fs::write(place.path().join(ROOT), "").unwrap();
+        assert_eq!(paths("m.json"), all);
+        assert!(is_picture("below/Mark.PNG") && !is_picture("m.json"));
     }
 }

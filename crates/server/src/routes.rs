@@ -18,7 +18,7 @@ use serde_json::value::RawValue;
 use tokio::time::timeout;
 
 use super::answers::{EvaluatedPage, Refusal, ServedAsset, TextOfFile};
-use super::doorkeeper::{self, POLICY_OF_REPORTS, query};
+use super::doorkeeper::{self, POLICY_OF_DOWNLOADS, POLICY_OF_REPORTS, query};
 use super::events::events;
 use super::folder::{Unopened, read};
 use super::lane::{Lane, Undone};
@@ -318,7 +318,7 @@ async fn export(State(house): State<Arc<House>>, request: Request) -> Response {
             (header::CONTENT_TYPE, HeaderValue::from_static(made.content_type)),
             (header::CONTENT_DISPOSITION, disposition),
             // a page that is opened instead of saved can do nothing
-            (header::CONTENT_SECURITY_POLICY, HeaderValue::from_static(POLICY_OF_REPORTS)),
+            (header::CONTENT_SECURITY_POLICY, HeaderValue::from_static(POLICY_OF_DOWNLOADS)),
         ];
         Ok::<_, Refusal>((headers, Body::from(made.content)).into_response())
     };

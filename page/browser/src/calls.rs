@@ -8,7 +8,7 @@ use base64::engine::general_purpose::STANDARD;
 use gumption::Application;
 use gumption_command::{ExportedAnswer, GivenFile, NotExported};
 use gumption_files::TextKind;
-use gumption_live::{HeldFiles, LiveError};
+use gumption_live::{FileDescription, HeldFiles, LiveError};
 use serde::Deserialize;
 use serde::de::DeserializeOwned;
 use serde_json::{Value, json};
@@ -65,6 +65,15 @@ pub(crate) fn answer(
     let program = Application::new();
     match name {
         "hello" => Ok(json!({ "version": env!("CARGO_PKG_VERSION"), "lang": null }).to_string()),
+        // the files that were handed over, as a server lists those of its folder
+        "files" => {
+            let listed = held.iter().map(|(path, content)| {
+                let FileDescription { kind, title } = FileDescription::of(path, content);
+                json!({ "path": path, "kind": kind, "title": title })
+            });
+            let files: Vec<Value> = listed.collect();
+            Ok(json!({ "root": "", "files": files, "open": null, "more": false }).to_string())
+        }
         // the published values, recomputed here
         "verify" => command(&program, &["verify", "--format", "json", "--quiet"]),
         // the hash over all trials, to be compared with `gumption verify --paths`

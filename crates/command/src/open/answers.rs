@@ -121,11 +121,10 @@ impl Answers for PageAnswers {
         })
     }
 
-    fn describe(&self, _name: &str, content: &[u8]) -> FileDescription {
-        let text = String::from_utf8_lossy(content);
-        let title = serde_json::from_str::<serde_json::Value>(&text).ok();
-        let title = title.and_then(|root| root.get("title")?.as_str().map(str::to_owned));
-        FileDescription { kind: TextKind::of(&text).name(), title }
+    fn describe(&self, name: &str, content: &[u8]) -> FileDescription {
+        let gumption_live::FileDescription { kind, title } =
+            gumption_live::FileDescription::of(name, content);
+        FileDescription { kind, title }
     }
 
     fn export(

@@ -2,7 +2,6 @@
 
 use std::collections::BTreeMap;
 use std::ops::Range;
-use std::path::Path;
 
 use super::super::conditions::{Conditions, is_same};
 use super::super::constant_inputs::ConstantInputs;
@@ -12,44 +11,25 @@ use super::super::model_file::{self, ModelFile};
 use super::super::model_readings::ModelReadings;
 use super::super::output_limits;
 use super::super::overrides::Override;
-use super::super::readings_file::NewReadings;
 use super::super::readings_of_models::{self, ModelOfReadings};
 use super::super::scopes::ConditionSet;
 use super::super::settings;
 use super::administrative::localized;
 use super::layout::{self, OpenTable};
 use super::{Asking, CertifiedModel};
-use crate::open::{is_no_object, text};
+use crate::open::is_no_object;
 use gumption_analysis::certificate::contents::{Asked, LayoutTable, Line, StatedFunction};
 use gumption_engine::model::{Capability, Quantity};
 use gumption_engine::task::{Task, Warning};
 use gumption_text::json::{Json, Member, Node};
 use gumption_text::object::Object;
 use gumption_text::value_text::{ValueOf, converts_alike, either_temperature};
-use gumption_text::{
-    Collector, Diagnostic, DiagnosticKind, Diagnostics, FileSource, Folder, Place, bytes,
-};
+use gumption_text::{Collector, Diagnostic, DiagnosticKind, Folder, Place};
 use gumption_units::Unit;
 use gumption_units::nearest;
 
 /// At most so many rows: their correlations are a matrix.
 const MOST_ROWS: usize = 1000;
-
-/// The files beside a model that lies in another folder than the certificate.
-#[derive(Debug)]
-struct FilesBeside<'a> {
-    above: &'a str,
-    source: &'a dyn FileSource,
-}
-
-impl FileSource for FilesBeside<'_> {
-    fn content(&self, name: &str, most: u64) -> Result<Vec<u8>, String> {
-        match self.above {
-            "" => self.source.content(name, most),
-            above => self.source.content(&format!("{above}/{name}"), most),
-        }
-    }
-}
 
 /// What the rows ask for.
 #[derive(Debug)]
@@ -248,33 +228,10 @@ impl<'a> CertificateRows<'a> {
         found
     }
 
-    /// A model file, from memory, from a source or from the disk; or why there is none.
-    fn opened(
-        &self,
-        name: &str,
-        overrides: &[Override],
-    ) -> Result<Result<ModelFile, Diagnostics>, DiagnosticKind> {
-        let (files, folder) = self.files_in;
-        let readings = files.readings.map(|new| NewReadings { model: Some(name), ..new });
-        let files = Context { readings, ..files };
-        if !folder.holds(name) {
-            return Ok(model_file::read(files, &folder.file(name)?, overrides));
-        }
-        let content = folder.content(name, bytes::MOST)?;
-        let text = text(content).map_err(|message| DiagnosticKind::Unreadable { message })?;
-        // what it names lies beside it
-        let above = name.rsplit_once('/').map_or("", |(above, _)| above);
-        let beside = folder.source().map(|source| FilesBeside { above, source });
-        let files = match &beside {
-            Some(beside) => Context { source: Some(beside), ..files },
-            None => files,
-        };
-        Ok(model_file::read_text(files, name, &text, Path::new(above), overrides))
-    }
-
     /// A model file with replacements; mistakes of the replacements are reported at `member`.
     fn model(&self, name: &str, member: &Member, overrides: &[Override]) -> Option<ModelFile> {
-        let found = match self.opened(name, overrides) {
+        let (files, folder) = self.files_in;
+        let found = match model_file::named(files, folder, name, overrides) {
             Ok(found) => found,
             Err(reason) => {
                 self.log.report(&member.value.span, reason);
