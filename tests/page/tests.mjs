@@ -714,13 +714,7 @@ function response(rows, corner) {
 
 /** An empty case, into which a table is pasted and whose columns are said. */
 async function caseOf(page, table) {
-  await page.evaluate(async () => {
-    const { text } = await (await fetch("api/call/new", { method: "POST", body: JSON.stringify({ kind: "case" }), headers: { "X-Gumption": localStorage.getItem("gumption"), "Content-Type": "application/json" } })).json();
-    const area = document.getElementById("source");
-    area.value = text;
-    area.dispatchEvent(new InputEvent("input", { bubbles: true }));
-  });
-  await page.click("#view-form");
+  await page.click("#begin-case");
   await until(page, () => !document.getElementById("case-form").hidden && /Paste|paste|einfügen/.test(document.getElementById("case-lacks").innerText));
   assert.equal(await page.locator("#mistakes li").count(), 0, "an empty case has no mistakes");
   await page.fill("#case-paste", table);
@@ -894,6 +888,93 @@ await test("a certificate keeps what its form cannot say", async (page, folder) 
     .replace(/"rows".*/, '"rows": [{"model": "power.json", "output": "power", "table": "u"}, {"model": "power.json", "output": "power", "table": "t", "set": {"voltage": "5.5 V"}}]');
   assert.equal((await source(page)).replace('"name": "Rossi", "city": "Roma"', '"city": "Roma", "name": "Rossi"'), expected);
 }, { ...POWER, open: "" });
+
+/** The words of the page in a language. */
+const words = async lang => (await import(`data:text/javascript,${encodeURIComponent(await readFile(join(root, `crates/live/page/words.${lang}.js`), "utf8"))}`)).default;
+
+// a first user: a blank page, U and k, a quantity as people write it, sixty inputs, a certificate, a case
+for (const [how, lang, width, height] of [["by mouse", "en", 1400, 1000], ["by keyboard", "en", 1400, 1000], ["on a phone, in German", "de", 390, 844]]) {
+  await test(`a first user, ${how}`, async (page, folder) => {
+    const w = await words(lang);
+    const press = how === "by keyboard" ? async of => { await of.focus(); await page.keyboard.press("Enter"); } : of => of.click();
+    const choose = how === "by keyboard" ? async (of, label) => { await of.focus(); await of.selectOption({ label }); } : (of, label) => of.selectOption({ label });
+    const type = async (of, typed) => { await of.focus(); await page.keyboard.type(typed); };
+    const input = (key, name) => field(page, w.of(w.key[key], name));
+    const look = async state => {
+      assert.deepEqual(await violations(page), [], state);
+      assert(await page.evaluate(() => document.documentElement.scrollWidth <= innerWidth), `${state} scrolls sideways`);
+      await shot(page, `first-${lang}-${width}-${state}`, { fullPage: true });
+    };
+    const isRight = () => page.waitForFunction(() => document.querySelectorAll("#mistakes li").length === 0 && document.getElementById("points").hidden && !document.getElementById("results").hidden);
+    await press(page.locator("#begin-empty"));
+    await page.locator("#equations").waitFor();
+    await type(page.locator("#equations"), "P = V^2/R");
+    await press(page.locator("#missing button").last());
+    await input("mean", "V").waitFor();
+    assert.equal(await red(page), 0);
+    await choose(field(page, w.how_of("R")), w.ways.expanded);
+    await input("expanded", "R").waitFor();
+    await type(input("mean", "R"), "100.02 ohm");
+    await type(input("expanded", "R"), lang === "de" ? "0,04" : "0.04");
+    await type(input("mean", "V"), lang === "de" ? "5,0112(23) V" : "5.0112(23) V");
+    await press(page.locator("#unreported button").first());
+    await page.locator("#points button", { hasText: "W" }).last().waitFor();
+    await press(page.locator("#points button", { hasText: w.use_unit("W") }));
+    await isRight();
+    assert.match(await text(page, "#headline .value"), lang === "de" ? /0,25107/ : /0\.25107/);
+    await look("result");
+    await page.keyboard.press("Control+s");
+    await page.locator("#dialog input").fill("power.json");
+    await page.keyboard.press("Enter");
+    await until(page, said => document.getElementById("state").textContent === said, w.saved);
+    const told = JSON.parse(execFileSync(process.env.GUMPTION, ["run", join(folder, "power.json"), "--format", "json", "--quiet"])).outputs.P;
+    // by hand: u_V/V = 0.0023/5.0112, u_R/R = 0.02/100.02
+    const power = 5.0112 ** 2 / 100.02, u = power * Math.hypot(2 * 0.0023 / 5.0112, 0.02 / 100.02);
+    assert(Math.abs(told.gum.standard_uncertainty - u) < 1e-9 * u && Math.abs(told.gum.estimate - power) < 1e-12, JSON.stringify(told.gum));
+    const written = await source(page);
+    // sixty, as a list of names in an equation gives them
+    const names = Array.from({ length: 58 }, (_, n) => `d${n}`);
+    await page.locator("#equations").focus();
+    await page.keyboard.press("Control+End");
+    await page.keyboard.type(`\nQ = P*(1 + ${names.join(" + ")})`);
+    await press(page.locator("#missing button").last());
+    await input("mean", "d57").waitFor({ timeout: 30000 });
+    await type(input("mean", "d57"), "0.0000(1)");
+    await until(page, label => document.querySelector(`[aria-label="${label}"]`).value !== "", w.of(w.key.std, "d57"));
+    const tall = await page.evaluate(() => document.querySelector("table.inputs").offsetHeight);
+    assert(tall <= (width < 1000 ? 60 * 90 : 3000), `sixty inputs are ${tall} px`);
+    await shot(page, `first-${lang}-${width}-sixty`);
+    await page.keyboard.press("Escape");
+    for (let step = 0; step < 100 && await source(page) !== written; step++) await page.keyboard.press("Control+z");
+    assert.equal(await source(page), written);
+    await isRight();
+    // a certificate of it
+    await press(page.locator("#certify"));
+    await page.locator("#certificate-form details").first().waitFor();
+    const said = w.certificate;
+    await type(field(page, said.number), "2026-017");
+    const frame = page.frameLocator("#report");
+    await frame.getByText("2026-017").first().waitFor();
+    await look("certificate");
+    await page.keyboard.press("Control+s");
+    await page.locator("#dialog input").fill("certificate.json");
+    await page.keyboard.press("Enter");
+    await until(page, said => document.getElementById("state").textContent === said, w.saved);
+    execFileSync(process.env.GUMPTION, ["certificate", join(folder, "certificate.json"), "--quiet"]);
+    // a case from pasted data
+    await press(page.locator("#new"));
+    await press(page.locator("#begin-case"));
+    await page.locator("#case-paste").waitFor();
+    await page.fill("#case-paste", response(20, 30));
+    await page.locator("#case-paste").blur();
+    await until(page, () => document.querySelectorAll(".case-column").length === 4);
+    await columnsSaid(page, lang === "de");
+    await page.fill("#case-search", "low-pass");
+    await page.locator("#case-catalogue label", { has: page.locator("b", { hasText: /^low-pass$/ }) }).locator("input").check();
+    await verdict(page, "low-pass");
+    await look("case");
+  }, { lang, viewport: { width, height } });
+}
 
 await test("speed with 20 inputs", async page => {
   const inputs = {}, terms = [];

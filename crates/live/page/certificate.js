@@ -3,7 +3,7 @@
 import { CertificateColumns } from "./certificate-columns.js";
 import { CertificateRows } from "./certificate-rows.js";
 import { Fields } from "./fields.js";
-import { at, make } from "./parts.js";
+import { at, make, relative } from "./parts.js";
 
 const LANGUAGES = ["en", "de", "fr", "it"];
 const PARTY = ["name", "street", "street_number", "post_code", "city", "country", "email", "phone", "code"];
@@ -483,14 +483,6 @@ export class CertificateForm extends Fields {
       boxes("separate_inputs", of("inputs")),
     ].filter(part => part !== null);
   }
-}
-
-/** A path as a file in a folder names it: `../` leads out of folders that both do not share. */
-function relative(folder, path) {
-  const from = folder.split("/").filter(word => word !== ""), to = path.split("/");
-  let same = 0;
-  while (same < from.length && same < to.length - 1 && from[same] === to[same]) same++;
-  return [...from.slice(same).map(() => ".."), ...to.slice(same)].join("/");
 }
 
 /** Of which kinds the values are, but not what they are; texts can come and go. */

@@ -153,7 +153,7 @@ export class Effects {
   #parameter(above, effect, name, of) {
     const { words, form } = this;
     const path = [...above, "parameters", name];
-    const { distributions } = this.page.form.kinds;
+    const { distributions, ways } = this.page.form.kinds;
     const shape = distributions.find(known => known.name === of.distribution || known.aliases.includes(of.distribution));
     const choice = make("select", { "aria-label": words.of(words.distribution, name), onchange: () => this.page.reshape(path, choice.value) },
       ...distributions.map(({ name: value }) => make("option", { value }, words.shapes[value] || value)));
@@ -161,7 +161,8 @@ export class Effects {
     choice.value = shape ? shape.name : of.distribution || "";
     choice.dataset.key = at([...path, "distribution"]) + "#choice";
     form.fields.set(choice.dataset.key, choice);
-    const keys = shape ? shape.keys.filter(key => of[key] !== undefined && typeof of[key] !== "object" || of[key] === null || shape.needed.includes(key) && !has(of, "expanded")) : [];
+    const { needed } = shape && ways.find(way => way.distribution === shape.name) || { needed: [] };
+    const keys = shape ? shape.keys.filter(key => of[key] !== undefined && typeof of[key] !== "object" || of[key] === null || needed.includes(key) && !has(of, "expanded")) : [];
     const rank = key => (ORDER.indexOf(key) + 99) % 99;
     const cells = [...keys].sort((a, b) => rank(a) - rank(b)).map(key => form.labelled({ key, path: [...path, key] }, name, key === "unit" || key === "about" ? "text" : null));
     const rename = to => {

@@ -69,7 +69,7 @@ export class Fields {
   }
 
   /** A field with its name before it: `short` where there is a symbol for it. */
-  named(path, word, name, properties, short = word) {
+  withName(path, word, name, properties, short = word) {
     const field = this.field(path, this.words.of(word, name), properties);
     const look = `labelled${properties.class === "list" ? " wide" : ""}${properties.isOptional ? " optional" : ""}`;
     return make("label", { class: look, title: word },

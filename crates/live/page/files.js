@@ -45,8 +45,6 @@ export class Files {
     this.page.named = name;
     this.page.pristine = text;
     this.page.found = null;
-    this.page.isNew = false;
-    this.page.isBegun = false;
     this.page.mistakes.diagnostics = [];
     this.page.mistakes.open = [];
     this.page.begin();
@@ -65,7 +63,6 @@ export class Files {
     try {
       const { text } = await this.page.program.call("new", request);
       this.take(text, null, null);
-      this.page.isNew = !request.example && !request.template;
     } catch (error) { this.page.failed(error); }
   }
 

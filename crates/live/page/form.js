@@ -119,7 +119,7 @@ export class Form extends Fields {
   /** The fields of the way in which an input is known. */
   #known(row) {
     const { words } = this;
-    if (row.form === "text") return [this.named(row.path, words.text_value, row.name, { kind: "text", size: 24 })];
+    if (row.form === "text") return [this.withName(row.path, words.text_value, row.name, { kind: "text", size: 24 })];
     if (row.form !== "object") return [];
     const way = this.#wayOf(this.#way(row)) || { needed: [], offered: [] };
     const cells = row.cells.filter(cell => !ASIDE.includes(cell.key) && cell.kind !== "other");
@@ -129,7 +129,7 @@ export class Form extends Fields {
       const cell = cells.find(cell => cell.key === key) || { key, kind: null };
       const kind = kindOf(cell);
       const isWide = kind === "list" || key === "half_width" && way.name === "datasheet";
-      return this.named([...row.path, key], words.key[key] || key, row.name, {
+      return this.withName([...row.path, key], words.key[key] || key, row.name, {
         kind, isOptional: way.offered.includes(key), placeholder: (words.placeholder[way.name] || {})[key] || words.placeholder[key] || null,
         size: 7, inputmode: kind === null && !isWide ? "decimal" : null, class: isWide ? "list" : kind === "text" ? null : key === "dof" || key === "k" || key === "p" ? "figure few" : "figure",
       }, (words.short_of[way.name] || {})[key] || words.short[key]);

@@ -57,6 +57,12 @@ export class Mistakes {
     return this.page.shownForms.map(form => form.fieldAt(path)).find(field => field);
   }
 
+  /** Where equations are written, and where results are chosen. */
+  #whole(key) {
+    const id = { equations: "equations", outputs: "unreported" }[key];
+    return id && this.element(id);
+  }
+
   /** What the file still lacks; a press on it goes there. */
   #points() {
     const { words } = this;
@@ -67,7 +73,7 @@ export class Mistakes {
     line.dataset.shown = key;
     const shown = this.open.slice(0, 8).flatMap(({ path, suggestion }) => {
       const [of] = path;
-      const field = path.length === 1 ? this.element(of === "equations" ? "equations" : "unreported") : this.#field(path);
+      const field = this.#field(path);
       const name = path.length === 1 ? words.open_list[of] : field ? field.getAttribute("aria-label") : path[path.length - 1];
       const go = make("button", { type: "button", class: "chip", onclick: () => this.goTo({ path }) }, name);
       const use = suggestion ? make("button", { type: "button", class: "chip", onclick: () => this.page.edit([{ path, value: suggestion }]) }, words.use_unit(suggestion)) : null;
@@ -81,10 +87,8 @@ export class Mistakes {
   goTo(of) {
     if (!of) return;
     if (!this.page.isText) {
-      if (of.path.length === 1) {
-        const first = this.element(of.path[0] === "equations" ? "equations" : "unreported");
-        return (first.querySelector("button") || first).focus();
-      }
+      const whole = of.path.length === 1 && this.#whole(of.path[0]);
+      if (whole) return (whole.querySelector("button") || whole).focus();
       if (of.path[0] === "equations" && of.path.length > 1) {
         const line = this.page.equations.lines().find(line => line.name === of.path[1]);
         if (line) {

@@ -74,14 +74,9 @@ class Page {
     for (const element of document.querySelectorAll(".of-file")) element.hidden = shown !== "file";
     this.files.state();
     if (shown !== "file") this.mistakes.told(null);
-    if (before !== undefined && before !== shown) this.element({ start: "start-title", import: "import-title", file: "editor-title" }[shown]).focus({ preventScroll: true });
-  }
-
-  /** A file was just begun and nothing is there yet that could be wrong. */
-  #isBegun(found) {
-    if (!this.isNew) return false;
-    if (this.document.text === this.pristine) return true;
-    return found.kind === "model" && (found.equations || []).length === 0 && found.diagnostics.every(of => of.path.length <= 1);
+    if (before === undefined || before === shown) return;
+    scrollTo(0, 0);
+    this.element({ start: "start-title", import: "import-title", file: "editor-title" }[shown]).focus({ preventScroll: true });
   }
 
   /** Another file is open: nothing of the last one stays. */
@@ -267,8 +262,6 @@ class Page {
   failed(error) { this.mistakes.failed(error); }
 
   answer(found, request) {
-    this.isBegun = this.#isBegun(found);
-    if (this.isBegun) found = { ...found, diagnostics: [] };
     if (found.kind === "case") found = { ...found, diagnostics: this.caseForm.calm(found) };
     this.found = found;
     this.answeredText = request.text;
@@ -292,8 +285,7 @@ class Page {
     for (const form of this.shownForms) form.show(found, force);
     this.element("certify").hidden = !isModel || (found.results || []).length === 0;
     this.mistakes.show(found, request);
-    if (this.isBegun) this.result.wait();
-    else if (isModel) this.result.results(found);
+    if (isModel) this.result.results(found);
     else this.result.report(found, request);
     this.files.state();
     document.dispatchEvent(new CustomEvent("answered", { detail: { took: performance.now() - request.at, full: found.full, mistakes: found.diagnostics.length } }));

@@ -45,3 +45,11 @@ export function printed(text) {
   const raised = digits => digits.replace(/^\+?0*/, "").replace(/[-0-9]/g, of => "⁻⁰¹²³⁴⁵⁶⁷⁸⁹"["-0123456789".indexOf(of)]);
   return text.replace(/e([-+]?\d+)$/i, (_, power) => `\u2009×\u200910${raised(power)}`).replace(/^-/, "\u2212");
 }
+
+/** A path as a file in a folder names it: `../` leads out of folders that both do not share. */
+export function relative(folder, path) {
+  const from = folder.split("/").filter(word => word !== ""), to = path.split("/");
+  let same = 0;
+  while (same < from.length && same < to.length - 1 && from[same] === to[same]) same++;
+  return [...from.slice(same).map(() => ".."), ...to.slice(same)].join("/");
+}

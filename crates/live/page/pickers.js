@@ -1,7 +1,7 @@
 // What an input takes from another file is picked from a list: a column of a table, a quantity of a
 // certificate, an output of a saved result.
 
-import { make } from "./parts.js";
+import { make, relative } from "./parts.js";
 
 export class Pickers {
   constructor(page) { this.page = page; }
@@ -17,7 +17,7 @@ export class Pickers {
     const file = await this.#one(words.pick_file[way], all.map(of => [of.path, of.path, of.title || ""]), words.pick_none[way]);
     if (!file) return;
     try {
-      const named = relative(file, page.document.path);
+      const named = relative((page.document.path || "").replace(/[^/]*$/, ""), file);
       const found = await page.program.call("contents", { file: named }, { path: page.document.path });
       const set = (key, value) => ({ path: [...row.path, key], value });
       const has = key => row.cells.some(cell => cell.key === key);
@@ -55,11 +55,4 @@ export class Pickers {
       make("b", {}, name), " ", make("span", { class: "detail" }, detail)));
     return dialog.choose(title, make("div", { class: "list" }, ...(entries.length ? entries : [make("p", {}, none)])), [[this.words.cancel, null]]);
   }
-}
-
-/** The path of a file of the folder, as a file at `from` names it. */
-export function relative(path, from) {
-  const to = path.split("/"), of = (from || "").split("/").slice(0, -1);
-  while (of.length && to.length > 1 && of[0] === to[0]) { of.shift(); to.shift(); }
-  return [...of.map(() => ".."), ...to].join("/");
 }

@@ -65,7 +65,7 @@ export class Result {
     if (has && found.whole && found.results[0]) this.stated = found.results.every(of => of.statement.kind === "interval") ? "monte-carlo" : found.results.every(of => of.statement.kind === "expanded") ? "gum" : null;
     if (!has) {
       this.age();
-      this.element("nothing").textContent = words.nothing;
+      this.element("nothing").textContent = (found.equations || []).length ? words.nothing : words.nothing_yet;
       this.element("nothing").hidden = this.hasResults;
       results.hidden = !this.hasResults;
       return;
@@ -177,14 +177,6 @@ export class Result {
     const short = marks.filter(of => of.classList.contains("badge")).map(of => of.cloneNode(true));
     if (clause) short[0].textContent = clause.valid === true ? words.bar_yes : clause.valid === false ? words.bar_no : words.bar_open;
     this.element("bar-badges").replaceChildren(...short);
-  }
-
-  /** Nothing is known yet of a file that was just begun; its form says what comes first. */
-  wait() {
-    this.clear();
-    for (const id of ["report", "output-tabs", "rows-box"]) this.element(id).hidden = true;
-    this.element("nothing").hidden = false;
-    this.element("nothing").textContent = this.words.first_of[this.page.kind] || this.words.nothing;
   }
 
   audit(found) {

@@ -78,11 +78,7 @@ export default {
     chemistry: "Chemie", radiation: "Ionisierende Strahlung", methods: "Verfahren und Vergleiche",
   },
   kinds: { model: "Messungen", certificate: "Kalibrierscheine", case: "Abweichungsfälle", comparison: "Vergleiche", recipe: "Aufzeichnungen", result: "Ergebnisse", costs: "Kosten" },
-  first_of: {
-    model: "Schreiben Sie zuerst die Gleichung der Messung, etwa power = voltage^2/resistance. Ihre Größen werden dann mit einem Klick zu Eingangsgrößen, und das Ergebnis erscheint hier.",
-    certificate: "Sagen Sie zuerst, was kalibriert wurde, für wen und von wem, und nennen Sie die Messungen, deren Ergebnisse die Zeilen angeben. Der Kalibrierschein erscheint hier.",
-    case: "Beschreiben Sie zuerst das Modell und was gemessen wurde. Die Diagnose erscheint hier.",
-  },
+  nothing_yet: "Schreiben Sie zuerst die Gleichung der Messung, etwa power = voltage^2/resistance. Ihre Größen werden dann mit einem Klick zu Eingangsgrößen, und das Ergebnis erscheint hier.",
   import_sheet: "Tabelle importieren", pasted: "Kopieren Sie das Budget in Ihrer Tabellenkalkulation, mit der Zeile der Überschriften, und fügen Sie es hier ein", pick_sheet: "CSV- oder XLSX-Datei wählen",
   pasted_name: "Eingefügtes Budget", use_budget: "Dieses Budget verwenden", sheet_fields: "Zum ganzen Blatt", sheet_table: "Das Blatt",
   sheet_clear: "Nichts ist offen: Dieses Budget kann verwendet werden.", sheet_open: n => n === 1 ? "Eine Angabe fehlt noch" : `${n} Angaben fehlen noch`,

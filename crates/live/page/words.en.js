@@ -78,11 +78,7 @@ export default {
     chemistry: "Chemistry", radiation: "Ionizing radiation", methods: "Methods and comparisons",
   },
   kinds: { model: "Measurements", certificate: "Certificates", case: "Gap cases", comparison: "Comparisons", recipe: "Recordings", result: "Results", costs: "Costs" },
-  first_of: {
-    model: "First write the equation of the measurement, such as power = voltage^2/resistance. Its quantities then become inputs with one click, and the result appears here.",
-    certificate: "First say what was calibrated, for whom and by whom, and name the measurements whose results the rows state. The certificate appears here.",
-    case: "First describe the model and what was measured. The diagnosis appears here.",
-  },
+  nothing_yet: "First write the equation of the measurement, such as power = voltage^2/resistance. Its quantities then become inputs with one click, and the result appears here.",
   import_sheet: "Import a spreadsheet", pasted: "Copy the budget in your spreadsheet, with its row of headings, and paste it here", pick_sheet: "Choose a CSV or XLSX file",
   pasted_name: "Pasted budget", use_budget: "Use this budget", sheet_fields: "About the sheet as a whole", sheet_table: "The sheet",
   sheet_clear: "Nothing is open: this budget can be used.", sheet_open: n => n === 1 ? "One thing is still to be said" : `${n} things are still to be said`,

@@ -104,6 +104,9 @@ pub(crate) fn answer(
                     let case = found.as_ref().ok().and_then(Option::as_ref);
                     fields(&mut answer, bare, root, case.map(|file| &file.case.task));
                     answer["data"] = table::of_case(bare, root, folder);
+                    // `data` shows the first ones; the page needs no million of them
+                    let values = answer["content"]["observations"]["values"].as_object_mut();
+                    values.into_iter().flat_map(|of| of.values_mut()).for_each(|of| *of = Json::Null);
                 }
                 _ => {}
             }
