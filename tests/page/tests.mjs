@@ -1,7 +1,7 @@
 // What the live page does, in a browser: usage: node tests.mjs REPOSITORY PICTURES
 import assert from "node:assert/strict";
 import { execFileSync } from "node:child_process";
-import { copyFile, cp, mkdir, mkdtemp, readFile, rm, writeFile } from "node:fs/promises";
+import { copyFile, cp, mkdir, mkdtemp, readFile, rm, utimes, writeFile } from "node:fs/promises";
 import { tmpdir } from "node:os";
 import { join } from "node:path";
 import { axe, browser, refined, serve, visit } from "./browser.mjs";
@@ -313,7 +313,7 @@ await test("the start page has examples with their results, and no red", async p
   for (const way of ["certificate", "case"]) {
     await page.click("#new");
     await page.click(`#begin-${way}`);
-    await until(page, () => !document.getElementById("nothing").hidden && !document.getElementById("file").hidden);
+    await page.locator(way === "case" ? "#case-lacks li" : "#lacking button").first().waitFor();
     assert.equal(await red(page), 0, way);
   }
 });
@@ -337,18 +337,18 @@ await test("the gallery has fields of work, titles, and a search", async page =>
   await until(page, () => /^a_z/.test(document.querySelector("#headline .value").innerText));
 });
 
-await test("recent files, and files of the folder by kind", async page => {
+await test("files of the folder by kind, and those that were changed last", async (page, folder) => {
   await until(page, () => document.querySelectorAll("#folder-files .entry").length > 2);
-  assert.equal(await page.locator("#recent").isVisible(), false);
   assert.match(await text(page, "#folder-files"), /Measurements/);
-  await page.locator("#folder-files .entry", { hasText: "power.json" }).click();
-  await shown(page);
+  assert.equal(await page.locator("#recent-files .entry").count(), 5);
+  const later = new Date(Date.now() + 5000);
+  await utimes(join(folder, "power.json"), later, later);
   await page.reload();
-  await until(page, () => document.querySelectorAll("#recent-files .entry").length === 1);
-  await page.locator("#recent-files .entry", { hasText: "Power in a resistor" }).click();
+  await until(page, () => document.querySelectorAll("#recent-files .entry").length === 5);
+  await page.locator("#recent-files .entry").first().click();
   await shown(page);
   assert.equal(await text(page, "#path"), "power.json");
-}, { files: ["power.json", "certificate.json", "last_year.json", "results.csv"].map(name => [`models/examples/${name}`, name]) });
+}, { files: ["power.json", "certificate.json", "last_year.json", "this_year.json", "results.csv", "proficiency.csv"].map(name => [`models/examples/${name}`, name]) });
 
 const paste = async (page, table) => {
   await page.fill("#pasted", table.map(row => row.join("\t")).join("\n"));

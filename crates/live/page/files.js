@@ -49,7 +49,6 @@ export class Files {
     this.page.mistakes.open = [];
     this.page.begin();
     this.state();
-    this.page.beginning.used(path);
   }
 
   async open(path) {
@@ -112,8 +111,7 @@ export class Files {
       const saved = await this.page.program.ask("save", { path, text, version });
       this.page.document.version = saved.version;
       this.page.document.saved = text;
-      this.page.beginning.used(path);
-    } catch (error) {
+      } catch (error) {
       if (error.status === 409) { this.isSaving = false; return this.conflict(error.answer); }
       this.page.failed(error);
     } finally { this.isSaving = false; }

@@ -61,7 +61,7 @@ class Page {
     this.form.kinds = await this.program.call("kinds", {});
     this.element("units").replaceChildren(...this.form.kinds.units.map(value => make("option", { value })));
     this.program.watch(event => this.files.onDisk(event), isLost => this.#lost(isLost));
-    const listing = this.beginning.listing = await this.program.ask("files", {});
+    const listing = await this.program.ask("files", {});
     if (listing.open) await this.files.open(listing.open);
     else await this.beginning.show();
   }

@@ -5,7 +5,7 @@ import { make } from "./parts.js";
 import { stated } from "./result.js";
 
 const TRIALS = 20000;
-const MOST_RECENT = 6;
+const MOST_RECENT = 5;
 
 export class Start {
   constructor(page) {
@@ -147,10 +147,10 @@ export class Start {
 
   #folder() {
     const { words } = this;
-    const shown = this.listing.files.filter(file => file.kind !== "other");
+    const shown = this.listing.files.filter(file => !["other", "picture"].includes(file.kind));
     const entry = file => make("li", {}, this.#entry(file.title || file.path, file.title ? file.path : null, () => this.open(file.path)));
-    const recent = this.#recent().map(path => this.listing.files.find(file => file.path === path)).filter(file => file);
-    this.element("recent").hidden = recent.length === 0;
+    const recent = [...shown].sort((a, b) => b.modified - a.modified).slice(0, MOST_RECENT);
+    this.element("recent").hidden = shown.length <= MOST_RECENT;
     this.element("recent-files").replaceChildren(...recent.map(entry));
     this.element("folder").hidden = shown.length === 0;
     const kinds = [...new Set([...Object.keys(words.kinds), ...shown.map(file => file.kind)])];
@@ -160,23 +160,5 @@ export class Start {
         make("summary", {}, words.kinds[kind] || kind, " ", make("span", { class: "detail" }, String(files.length))),
         make("ul", {}, ...files.map(entry)))] : [];
     }));
-  }
-
-  #recent() {
-    try {
-      const kept = JSON.parse(localStorage.getItem("recent") || "{}")[this.listing.root];
-      return Array.isArray(kept) ? kept.filter(path => typeof path === "string") : [];
-    } catch { return []; }
-  }
-
-  /** A file of the folder was opened or saved. */
-  async used(path) {
-    if (!this.page.program.hasFolder || path === null) return;
-    try {
-      this.listing ||= await this.page.program.ask("files", {});
-      const kept = JSON.parse(localStorage.getItem("recent") || "{}");
-      kept[this.listing.root] = [path, ...this.#recent().filter(other => other !== path)].slice(0, MOST_RECENT);
-      localStorage.setItem("recent", JSON.stringify(kept));
-    } catch { /* not kept */ }
   }
 }

@@ -70,7 +70,7 @@ export default {
   // the start page and the import of a spreadsheet
   home: "gumption", start_title: "Was möchten Sie auswerten?", ways_to_begin: "Wege zu beginnen", begin_empty: "Leer beginnen",
   begin_certificate: "Neuer Kalibrierschein", begin_case: "Neuer Abweichungsfall", begin_paste: "Tabelle einfügen", begin_open: "Datei öffnen",
-  recent: "Zuletzt benutzt", gallery: "Beispiele nach Fachgebiet", gallery_search: "Beispiele suchen", folder: "Dateien dieses Ordners",
+  recent: "Zuletzt geändert", gallery: "Beispiele nach Fachgebiet", gallery_search: "Beispiele suchen", folder: "Dateien dieses Ordners",
   go_on_with: n => `Zurück zu ${n}`, gallery_found: n => n === 1 ? "1 Beispiel" : `${n} Beispiele`,
   fields: {
     length: "Länge", mass: "Masse", force: "Kraft, Drehmoment, Härte", pressure: "Druck", flow: "Volumen, Durchfluss, Viskosität",

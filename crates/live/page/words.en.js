@@ -70,7 +70,7 @@ export default {
   // the start page and the import of a spreadsheet
   home: "gumption", start_title: "What do you want to evaluate?", ways_to_begin: "Ways to begin", begin_empty: "Begin empty",
   begin_certificate: "New certificate", begin_case: "New gap case", begin_paste: "Paste a spreadsheet", begin_open: "Open a file",
-  recent: "Recent files", gallery: "Examples by field of work", gallery_search: "Search the examples", folder: "Files of this folder",
+  recent: "Last changed", gallery: "Examples by field of work", gallery_search: "Search the examples", folder: "Files of this folder",
   go_on_with: n => `Back to ${n}`, gallery_found: n => n === 1 ? "1 example" : `${n} examples`,
   fields: {
     length: "Length", mass: "Mass", force: "Force, torque, hardness", pressure: "Pressure", flow: "Volume, flow, viscosity",

@@ -106,7 +106,10 @@ pub(crate) fn answer(
                     answer["data"] = table::of_case(bare, root, folder);
                     // `data` shows the first ones; the page needs no million of them
                     let values = answer["content"]["observations"]["values"].as_object_mut();
-                    values.into_iter().flat_map(|of| of.values_mut()).for_each(|of| *of = Json::Null);
+                    values
+                        .into_iter()
+                        .flat_map(|of| of.values_mut())
+                        .for_each(|of| *of = Json::Null);
                 }
                 _ => {}
             }

@@ -2,6 +2,7 @@
 
 use std::fs;
 use std::path::Path;
+use std::time::UNIX_EPOCH;
 
 use serde::Serialize;
 
@@ -34,6 +35,8 @@ pub(crate) struct Listing {
 struct Listed {
     path: String,
     kind: &'static str,
+    /// When it was changed, in seconds since 1970; 0 if the system does not say.
+    modified: u64,
     title: Option<String>,
 }
 
@@ -63,8 +66,9 @@ pub(crate) fn listing(folder: &OpenedFolder, answers: &dyn Answers) -> Listing {
     let mut found = FoundPaths { paths: Vec::new(), seen: 0, more: false };
     found.look_into(folder.root(), "", depth(folder));
     let described = |path: String| {
+        let modified = modified(&folder.root().join(&path));
         if is_picture(&path) {
-            return Listed { path, kind: "picture", title: None };
+            return Listed { path, kind: "picture", modified, title: None };
         }
         // unreadable files are listed too: opening them gives the reason
         let content = folder.path(&path).and_then(|path| read(&path, LONGEST));
@@ -75,7 +79,7 @@ pub(crate) fn listing(folder: &OpenedFolder, answers: &dyn Answers) -> Listing {
             }
             Err(_) => ("other", None),
         };
-        Listed { path, kind, title }
+        Listed { path, kind, modified, title }
     };
     Listing {
         root: folder.name(),
@@ -83,6 +87,12 @@ pub(crate) fn listing(folder: &OpenedFolder, answers: &dyn Answers) -> Listing {
         open: folder.named().map(str::to_owned),
         more: found.more,
     }
+}
+
+/// When a file was changed, in seconds since 1970.
+fn modified(path: &Path) -> u64 {
+    let time = fs::metadata(path).and_then(|of| of.modified()).ok();
+    time.and_then(|time| time.duration_since(UNIX_EPOCH).ok()).map_or(0, |since| since.as_secs())
 }
 
 struct FoundPaths {
