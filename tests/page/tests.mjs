@@ -348,7 +348,7 @@ await test("files of the folder by kind, and those that were changed last", asyn
   await page.locator("#recent-files .entry").first().click();
   await shown(page);
   assert.equal(await text(page, "#path"), "power.json");
-}, { files: ["power.json", "certificate.json", "last_year.json", "this_year.json", "results.csv", "proficiency.csv"].map(name => [`models/examples/${name}`, name]) });
+}, { files: ["power.json", "certificate.json", "last_year.json", "this_year.json", "results.csv"].map(name => [`models/examples/${name}`, name]).concat([["models/laboratory/weight.json", "weight.json"], ["models/mean_of_repetitions.json", "mean.json"]]) });
 
 const paste = async (page, table) => {
   await page.fill("#pasted", table.map(row => row.join("\t")).join("\n"));
