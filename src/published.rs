@@ -147,11 +147,12 @@ mod tests {
         wanted.sort_unstable();
         arranged.sort_unstable();
         assert_eq!(arranged, wanted);
-        let title = |text: &str| {
+        let title = |name: &str, text: &str| {
             let of: Value = serde_json::from_str(text).unwrap();
-            of["title"].as_str().unwrap().to_owned()
+            let own = || of["title"].as_str().unwrap().to_owned();
+            gumption_live::gallery::title(name).map_or_else(own, str::to_owned)
         };
-        let mut titles: Vec<String> = all.iter().map(|(_, text)| title(text)).collect();
+        let mut titles: Vec<String> = all.iter().map(|(name, text)| title(name, text)).collect();
         for ((name, _), title) in all.iter().zip(&titles) {
             assert!(!title.trim().is_empty() && title != name, "{name}: {title}");
         }

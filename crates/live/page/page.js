@@ -270,7 +270,7 @@ class Page {
     if (force) this.force = false;
     this.kind = found.kind;
     const isModel = found.kind === "model";
-    this.element("editor-title").textContent = found.kind === "certificate" ? this.words.certificate.certificate : this.words.measurement;
+    this.element("editor-title").textContent = this.words.title_of[found.kind] || this.words.measurement;
     this.element("view-form").disabled = !this.forms[found.kind];
     this.show(this.view);
     if (found.inputs !== undefined) {

@@ -55,6 +55,7 @@ export default {
   // wie Eingangsgrößen bekannt sind
   how: "Wie sie bekannt ist", how_of: name => `Wie ${name} bekannt ist`, other_shapes: "Andere Verteilungen", plus_minus: "Nach ± steht:",
   open_points: "Noch offen:", open_list: { equations: "eine Gleichung", outputs: "ein Ergebnis" }, use_unit: unit => `${unit} verwenden`,
+  title_of: { certificate: "Kalibrierschein", case: "Abweichungsfall" },
   changed_open: "nicht gespeichert (noch nicht vollständig)",
   ways: {
     standard: "u (Standard)", expanded: "U und k", "expanded-p": "U und p", limits: "± Grenzen", bounds: "untere und obere Grenze",
@@ -157,7 +158,7 @@ export default {
   case_next_output: (name, n, place) => `Die Ergebnisgröße ${name}, ${n === 1 ? "eine Zeile" : `${n} Zeilen`}${place ? ` bei ${place}` : ""}`,
   // the form of a certificate
   certificate: {
-    certificate: "Kalibrierschein", head: "Nummer und Titel", number: "Nummer des Kalibrierscheins", title: "Titel", device: "Gerät", customer: "Kunde", laboratory: "Laboratorium",
+    head: "Nummer und Titel", number: "Nummer des Kalibrierscheins", title: "Titel", device: "Gerät", customer: "Kunde", laboratory: "Laboratorium",
     device_key: { name: "Gegenstand", manufacturer: "Hersteller", model: "Modell oder Typ", serial_number: "Seriennummer", customer_number: "Nummer beim Kunden", condition: "Zustand bei Eingang" },
     party: { name: "Name", code: "Akkreditierungs- oder Laborkennung", street: "Straße", street_number: "Hausnummer", post_code: "Postleitzahl", city: "Ort", country: "Land (etwa DE)", email: "E-Mail", phone: "Telefon" },
     dates: "Daten, Ort, verantwortliche Person", receipt: "Eingegangen am", first_day: "Erster Tag der Kalibrierung", last_day: "Letzter Tag der Kalibrierung", issue: "Ausgestellt am",

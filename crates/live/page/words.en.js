@@ -55,6 +55,7 @@ export default {
   // how inputs are known
   how: "How it is known", how_of: name => `How ${name} is known`, other_shapes: "Other distributions", plus_minus: "What is after ± is:",
   open_points: "Still open:", open_list: { equations: "an equation", outputs: "a result" }, use_unit: unit => `use ${unit}`,
+  title_of: { certificate: "Certificate", case: "Gap case" },
   changed_open: "not saved (not complete yet)",
   ways: {
     standard: "u (standard)", expanded: "U and k", "expanded-p": "U and p", limits: "± limits", bounds: "lower and upper limit",
@@ -157,7 +158,7 @@ export default {
   case_next_output: (name, n, place) => `The output ${name}, ${n === 1 ? "one row" : `${n} rows`}${place ? ` at ${place}` : ""}`,
   // the form of a certificate
   certificate: {
-    certificate: "Certificate", head: "Number and title", number: "Number of the certificate", title: "Title", device: "Device", customer: "Customer", laboratory: "Laboratory",
+    head: "Number and title", number: "Number of the certificate", title: "Title", device: "Device", customer: "Customer", laboratory: "Laboratory",
     device_key: { name: "What it is", manufacturer: "Manufacturer", model: "Model or type", serial_number: "Serial number", customer_number: "Customer's number for it", condition: "Condition when received" },
     party: { name: "Name", code: "Laboratory or accreditation code", street: "Street", street_number: "House number", post_code: "Post code", city: "City", country: "Country (such as IT)", email: "E-mail", phone: "Telephone" },
     dates: "Dates, place, responsible person", receipt: "Received on", first_day: "First day of the calibration", last_day: "Last day of the calibration", issue: "Issued on",

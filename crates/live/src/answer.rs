@@ -18,7 +18,8 @@ use serde::Deserialize;
 use serde_json::{Value as Json, json};
 use std::path::Path;
 
-use crate::edit::{Edit, edited};
+use crate::edit::Edit;
+use crate::quantity::edited;
 use crate::tree::{self, path_of};
 use crate::{LiveError, certificate, diagnostics, inputs, limited, open, outputs, table};
 use gumption_report::words::Language;

@@ -15,13 +15,13 @@ const MOST: usize = 100;
 
 /// A request of the call `model`.
 #[derive(Debug, Deserialize)]
-pub(crate) struct ContentsRequest {
+pub(crate) struct ModelRequest {
     /// The model file, as the certificate names it.
     model: String,
 }
 
 /// The contents of a model file that a certificate may name.
-pub(crate) fn contents(files: FileReader<'_>, asked: &ContentsRequest) -> Json {
+pub(crate) fn contents(files: FileReader<'_>, asked: &ModelRequest) -> Json {
     of_model(files, &asked.model)
 }
 

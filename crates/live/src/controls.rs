@@ -4,7 +4,7 @@ use serde::Serialize;
 
 /// A control of the page with what is to be said by it, as far as the question says that.
 #[derive(Clone, Debug, Default, PartialEq, Serialize)]
-pub(crate) struct Control {
+pub(crate) struct SheetControl {
     /// The option, without its hyphens: `column`, `row`, `unit`, `k`, ...
     option: String,
     /// What the column or the row is.
@@ -14,12 +14,12 @@ pub(crate) struct Control {
 }
 
 /// The options that a sentence names in backquotes.
-pub(crate) fn of(sentence: &str) -> Vec<Control> {
+pub(crate) fn of(sentence: &str) -> Vec<SheetControl> {
     let quoted = sentence.split('`').skip(1).step_by(2);
     quoted.filter_map(|text| control(text.strip_prefix("--")?)).collect()
 }
 
-fn control(text: &str) -> Option<Control> {
+fn control(text: &str) -> Option<SheetControl> {
     let (option, rest) = text.split_once(' ').unwrap_or((text, ""));
     let rest = rest.trim().trim_matches('"');
     // words in capitals stand for what the user knows; of columns `N` is one
@@ -35,7 +35,7 @@ fn control(text: &str) -> Option<Control> {
         "row" => (known(pair().0, &[]), known(pair().1, &["N", "ROW"])),
         _ => (None, known(rest, &["NAME", "UNIT", "NUMBER", "KIND"])),
     };
-    Some(Control { option: option.to_owned(), name, value })
+    Some(SheetControl { option: option.to_owned(), name, value })
 }
 
 #[cfg(test)]
@@ -44,7 +44,7 @@ mod tests {
 
     #[test]
     fn options_are_controls() {
-        let control = |option: &str, name: Option<&str>, value: Option<&str>| Control {
+        let control = |option: &str, name: Option<&str>, value: Option<&str>| SheetControl {
             option: option.into(),
             name: name.map(str::to_owned),
             value: value.map(str::to_owned),

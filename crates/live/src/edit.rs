@@ -9,7 +9,6 @@ use jsonc_parser::ast::{Array, Object, Value};
 use jsonc_parser::common::Ranged;
 use serde::Deserialize;
 
-use crate::quantity;
 use crate::tree::{self, PathStep};
 
 /// One change.
@@ -78,6 +77,11 @@ impl Edit {
         Self { path, value, typed, remove: false, rename, before: None, exchange: None, members }
     }
 
+    /// The place of what is typed, and the text.
+    pub(crate) fn as_typed(&self) -> Option<(&[PathStep], &str)> {
+        Some((&self.path, self.typed.as_deref()?))
+    }
+
     fn path(&self) -> String {
         let steps: Vec<String> = self.path.iter().map(PathStep::to_string).collect();
         steps.join("/")
@@ -93,17 +97,9 @@ pub(crate) fn edited(text: &str, edits: &[Edit]) -> Result<String, String> {
     let mark = text.strip_suffix(bare).unwrap_or("");
     let mut now = bare.to_owned();
     for edit in edits {
-        now = match edit.typed.as_deref().and_then(|typed| meant(&now, edit, typed)) {
-            Some(more) => more.iter().try_fold(now, |now, edit| one(&now, edit))?,
-            None => one(&now, edit)?,
-        };
+        now = one(&now, edit)?;
     }
     Ok(mark.to_owned() + &now)
-}
-
-/// The changes that a typed quantity means.
-fn meant(text: &str, edit: &Edit, typed: &str) -> Option<Vec<Edit>> {
-    quantity::taken(text, &tree::parse(text).ok()?, &edit.path, typed)
 }
 
 fn one(text: &str, edit: &Edit) -> Result<String, String> {

@@ -4,7 +4,9 @@ use gumption_units::nearest;
 use serde::Deserialize;
 use serde_json::{Value as Json, json};
 
-use crate::{Live, LiveError};
+use crate::edit::{Edit, edited};
+use crate::tree::path_of;
+use crate::{Live, LiveError, gallery};
 
 /// A request of the call `new`.
 #[derive(Debug, Deserialize)]
@@ -50,11 +52,15 @@ const EMPTY_CASE: &str = "{\n  \"format\": 1,\n  \"title\": \"\",\n  \"inputs\":
 /// The text of a new file.
 pub(crate) fn new(live: &Live<'_>, asked: &NewRequest) -> Result<Json, LiveError> {
     let templates = live.catalogue.iter().filter_map(|entry| Some((entry.name(), entry.template?)));
+    let title = asked.example.as_deref().and_then(gallery::title);
     let text = match (&asked.example, &asked.template) {
         (Some(name), _) => named(name, live.examples.iter().copied(), "example")?,
         (None, Some(name)) => named(name, templates, "measurement")?,
         (None, None) => asked.kind.text(),
     };
+    let Some(title) = title else { return Ok(json!({ "text": text })) };
+    let titled = Edit::set(path_of(["title"]), json!(title));
+    let text = edited(text, &[titled]).map_err(LiveError::Internal)?;
     Ok(json!({ "text": text }))
 }
 

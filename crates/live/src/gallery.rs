@@ -8,18 +8,19 @@ use serde_json::{Map, Value as Json, json};
 use crate::Live;
 
 /// Which names belong to which field; a name stands in one field.
-#[derive(Debug, Deserialize)]
+#[derive(Debug, Default, Deserialize)]
 struct Arrangement {
     /// The entries that the start page shows first, with their results.
     large: Vec<String>,
     /// Lists of names by the names of the fields, in the order of the page.
     fields: Map<String, Json>,
+    /// Titles of entries whose files are copies that must stay as they are, with a code as their title.
+    titles: Map<String, Json>,
 }
 
 static ARRANGEMENT: LazyLock<Arrangement> = LazyLock::new(|| {
     // the text is part of the program, and a test reads it
-    serde_json::from_str(include_str!("gallery.json"))
-        .unwrap_or(Arrangement { large: Vec::new(), fields: Map::new() })
+    serde_json::from_str(include_str!("gallery.json")).unwrap_or(Arrangement::default())
 });
 
 /// The fields of work with the names of their entries, in the order of the page.
@@ -51,5 +52,11 @@ pub(crate) fn list(live: &Live<'_>) -> Json {
 /// A starting point: how it is asked for, its title and its source.
 fn entry(kind: &str, name: &str, text: &str) -> Json {
     let of: Json = serde_json::from_str(text).unwrap_or(Json::Null);
-    json!({ "kind": kind, "name": name, "title": of["title"], "source": of["source"] })
+    let title = title(name).map_or_else(|| of["title"].clone(), Json::from);
+    json!({ "kind": kind, "name": name, "title": title, "source": of["source"] })
+}
+
+/// The title of an entry whose file has none in words; `None` for any other name.
+pub fn title(name: &str) -> Option<&'static str> {
+    ARRANGEMENT.titles.get(name)?.as_str()
 }

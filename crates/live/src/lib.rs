@@ -122,7 +122,7 @@ impl<'a> Live<'a> {
             "audit" => audit::audited(files, &asked(request)?, stop)?,
             "edit" => {
                 let asked: edit_call::EditRequest = asked(request)?;
-                let text = edit::edited(limited(&asked.text)?, &asked.edits);
+                let text = quantity::edited(limited(&asked.text)?, &asked.edits);
                 json!({ "text": text.map_err(LiveError::Request)? })
             }
             "reshape" => reshape::reshaped(files, &asked(request)?)?,

@@ -7,19 +7,30 @@ use gumption_units::Unit;
 use jsonc_parser::ast::{Object, Value};
 use serde_json::json;
 
-use crate::edit::Edit;
-use crate::reshape;
+use crate::edit::{self, Edit};
 use crate::tree::{self, PathStep, raw};
-use crate::ways::CENTRES;
+use crate::ways::{self, CENTRES};
+
+/// As [`edit::edited`], where a quantity that is typed into a field of an input fills its other fields.
+///
+/// # Errors
+/// The text is not a JSON object, or a change is not applicable; a sentence.
+pub(crate) fn edited(text: &str, edits: &[Edit]) -> Result<String, String> {
+    edits.iter().try_fold(text.to_owned(), |now, edit| {
+        let bare = now.strip_prefix('\u{feff}').unwrap_or(&now);
+        let root = tree::parse(bare).ok();
+        let meant =
+            edit.as_typed().and_then(|(path, typed)| taken(bare, root.as_ref()?, path, typed));
+        match meant {
+            Some(meant) => edit::edited(&now, &meant),
+            None => edit::edited(&now, std::slice::from_ref(edit)),
+        }
+    })
+}
 
 /// The changes that a typed text means, if it is typed into a field of an input and says more than the
 /// value of that field.
-pub(crate) fn taken(
-    text: &str,
-    root: &Value<'_>,
-    path: &[PathStep],
-    typed: &str,
-) -> Option<Vec<Edit>> {
+fn taken(text: &str, root: &Value<'_>, path: &[PathStep], typed: &str) -> Option<Vec<Edit>> {
     let [PathStep::Key(inputs), PathStep::Key(_), PathStep::Key(key)] = path else { return None };
     if inputs != "inputs"
         || ["about", "source", "group", "type", "file", "column"].contains(&key.as_str())
@@ -63,7 +74,7 @@ impl Input<'_> {
         is_unit(&members).then_some(())?;
         let stays = |key: &str| members.iter().any(|(of, _)| of == key);
         let keys = self.object.properties.iter().map(|member| member.name.as_str());
-        let gone = keys.filter(|key| reshape::is_of_distribution(key) && !stays(key));
+        let gone = keys.filter(|key| ways::is_of_distribution(key) && !stays(key));
         let mut edits: Vec<Edit> = gone.map(|key| Edit::remove(self.step(key))).collect();
         edits.extend(members.iter().map(|(key, value)| self.written(key, value)));
         Some(edits)

@@ -10,6 +10,7 @@ use serde::Deserialize;
 use serde_json::{Value as Json, json};
 
 use crate::edit::{self, Edit};
+use crate::quantity;
 use crate::tree::{self, PathStep};
 use crate::ways::{self, CENTRES, Role, WIDTHS, Way};
 use crate::{LiveError, inputs, limited};
@@ -44,11 +45,6 @@ const OWN: [&str; 14] = [
     "beta",
     "inexactness",
 ];
-
-/// Whether a key goes with a distribution, so that another one does not need it.
-pub(crate) fn is_of_distribution(key: &str) -> bool {
-    schema::distributions().iter().any(|of| of.keys.contains(&key))
-}
 
 /// The text with another way in which an input is known.
 pub(crate) fn reshaped(files: FileReader<'_>, asked: &ReshapeRequest) -> Result<Json, LiveError> {
@@ -134,7 +130,7 @@ pub(crate) fn reshaped(files: FileReader<'_>, asked: &ReshapeRequest) -> Result<
     if let (Some(typed), Some((key, _))) = (undecided, centre) {
         edits.push(Edit::typed(step(key), &typed));
     }
-    let made = edit::edited(text, &edits).map_err(fault)?;
+    let made = quantity::edited(text, &edits).map_err(fault)?;
     Ok(json!({ "text": made }))
 }
 

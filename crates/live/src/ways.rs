@@ -148,6 +148,11 @@ pub(crate) fn way(name: &str) -> Option<Way> {
     }))
 }
 
+/// Whether a key goes with a distribution, so that another one does not need it.
+pub(crate) fn is_of_distribution(key: &str) -> bool {
+    schema::distributions().iter().any(|of| of.keys.contains(&key))
+}
+
 /// The way in which an input of a file is known; its distribution where that is no way of its own.
 pub(crate) fn way_of(text: &str, object: &Object<'_>) -> Option<&'static str> {
     let member = |key: &str| tree::member(object, key).map(|of| &of.value);

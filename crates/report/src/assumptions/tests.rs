@@ -2,6 +2,7 @@
 
 use super::{AuditReport, json, table};
 use crate::Provenance;
+use crate::words::Language;
 use gumption_assumptions::{Question, audit};
 use gumption_engine::propagate::Control;
 use gumption_files::read_text;
@@ -58,7 +59,10 @@ fn an_offset_is_named() {
     let page = table(&report).split_whitespace().collect::<Vec<_>>().join(" ");
     assert!(page.contains(&format!("off is too narrow. {said}")), "{page}");
     assert!(super::markdown(&report).replace('\\', "").contains(said));
-    assert!(super::fragment(&report).contains(said));
+    assert!(super::fragment(&report, Language::English).contains(said));
+    // the decimal mark of the language, in tables as well
+    let german = super::fragment(&report, Language::German);
+    assert!(german.contains(">0,0239<") && !german.contains(">0.0239<"), "{german}");
     let answer: serde_json::Value = serde_json::from_str(&json(&report)).unwrap();
     let evidence = &answer["evidence"][0];
     assert_eq!(evidence["verdict"], "too narrow");
