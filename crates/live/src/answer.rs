@@ -106,7 +106,8 @@ pub(crate) fn answer(
                     fields(&mut answer, bare, root, case.map(|file| &file.case.task));
                     answer["data"] = table::of_case(bare, root, folder);
                     // `data` shows the first ones; the page needs no million of them
-                    let values = answer["content"]["observations"]["values"].as_object_mut();
+                    let values = answer["content"].pointer_mut("/observations/values");
+                    let values = values.and_then(Json::as_object_mut);
                     values
                         .into_iter()
                         .flat_map(|of| of.values_mut())

@@ -38,7 +38,7 @@ pub(crate) fn contents(
         return Ok(json!({ "outputs": outputs }));
     }
     // cells need not be numbers here
-    let table = table::parse(&SourceText::new(name.as_str(), &*text), Some(&[]));
+    let table = table::parse(&SourceText::new(name.as_str(), &text), Some(&[]));
     let table = table.map_err(|faults| {
         let faults = faults.iter().map(|(_, kind)| kind.to_string());
         refused(faults.collect::<Vec<_>>().join("; "))

@@ -95,7 +95,7 @@ pub(crate) fn number_in_sentence(number: &str) -> String {
     }
     let mut grouped = String::with_capacity(number.len() + number.len() / 3);
     for (place, digit) in number.chars().enumerate() {
-        if place > 0 && (number.len() - place) % 3 == 0 {
+        if place > 0 && (number.len() - place).is_multiple_of(3) {
             grouped.push('\u{202f}');
         }
         grouped.push(digit);
