@@ -576,3 +576,55 @@ fn elements_of_a_list_change_places() {
     let request = json!({ "text": text, "edits": edits });
     assert!(try_call("edit", &request, &HeldFiles::default()).is_err());
 }
+
+/// Every place of a value, as paths.
+fn places(value: &Value, path: &mut Vec<Value>, found: &mut Vec<Vec<Value>>) {
+    found.push(path.clone());
+    let mut into = |step: Value, inner: &Value| {
+        path.push(step);
+        places(inner, path, found);
+        path.pop();
+    };
+    match value {
+        Value::Object(members) => members.iter().for_each(|(key, inner)| into(json!(key), inner)),
+        Value::Array(elements) => {
+            elements.iter().enumerate().for_each(|(at, inner)| into(json!(at), inner));
+        }
+        _ => {}
+    }
+}
+
+/// Whatever stands at a place of a file, there is an answer: errors, or what the form shows.
+#[test]
+fn any_value_at_any_place_has_an_answer() {
+    let certificate = r#"{"format": 1, "number": "1", "device": {"name": "d"}, "language": ["en"],
+        "letterhead": {"logo": "l.png"}, "layout": {"columns": ["label", {"quantity": "power"}]},
+        "rows": [{"model": "power.json", "output": "power", "set": {"voltage": 5}}]}"#;
+    let case = r#"{"format": 1, "inputs": {"a": {"unit": "1", "distribution": "normal", "mean": 1, "std": 0.1}},
+        "conditions": {"f": {"unit": "Hz"}}, "equations": {"y": "a + 0*f/f"}, "outputs": {"y": {"unit": "1"}},
+        "observations": {"values": {"f": [1, 2], "y": [1, 2]}, "columns": {"y": {"value": "y"}}},
+        "effects": {"e": {"parameters": {"d": {"unit": "1", "distribution": "normal", "mean": 0, "std": 1}},
+        "overrides": {"y": "y + d"}}}, "catalogue": ["offset"]}"#;
+    let files = HeldFiles(vec![("power.json".to_owned(), POWER.as_bytes().to_vec())]);
+    for text in [POWER, certificate, case] {
+        let root: Value = serde_json::from_str(text).unwrap();
+        let mut all = Vec::new();
+        places(&root, &mut Vec::new(), &mut all);
+        for path in all.iter().filter(|path| !path.is_empty()) {
+            for value in [
+                json!(null),
+                json!(true),
+                json!(-1),
+                json!("x ± 1"),
+                json!([]),
+                json!([{}]),
+                json!({"a": {}}),
+            ] {
+                let edit = json!({"path": path, "value": value});
+                let asked = json!({"text": text, "edits": [edit], "trials": 1000});
+                let found = try_call("answer", &asked, &files);
+                assert!(found.is_ok(), "{path:?} {value}: {found:?}");
+            }
+        }
+    }
+}
