@@ -40,5 +40,6 @@ node tests/page/tests.mjs "$PWD" "$folder" || failed=$?
 if [ "$folder" = "$PWD/reports/pages" ] && [ -z "${ONLY:-}" ]; then
   cp "$folder/live-first-screen.png" docs/pictures/live.png
   cp "$folder/live-conflict.png" docs/pictures/live-conflict.png
+  cp "$folder/live-start.png" docs/pictures/live-start.png
 fi
 exit "$failed"

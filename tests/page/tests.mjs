@@ -191,7 +191,6 @@ await test("a certificate from nothing, by its fields", async (page, folder) => 
   // nothing is red, and what is missing is said
   assert.equal(await page.locator("#mistakes li, #certificate-form [aria-invalid]").count(), 0);
   assert.match(await text(page, "#lacking"), /Add a row: choose a model and one of its outputs/);
-  await shot(page, "certificate-empty", { fullPage: true });
   await page.locator("#lacking button").first().click();
   await until(page, () => document.activeElement.dataset.key === "rows#model");
   await field(page, "Number of the certificate").fill("2026-017");
@@ -418,7 +417,6 @@ await test("a workbook is shown, and one of this program comes back", async (pag
   await choose("empty.xlsx");
   await page.locator("#use-budget:enabled").waitFor();
   assert.equal(await page.inputValue('[aria-label="What row 4 is"]'), "heading");
-  await shot(page, "import-workbook", { fullPage: true });
   // another sheet has no budget
   await page.selectOption('[aria-label="Sheet"]', { index: 2 });
   await until(page, () => /no budget is found/.test(document.getElementById("sheet-questions").innerText));
@@ -740,11 +738,9 @@ const verdict = (page, what) => page.waitForFunction(what => !document.getElemen
 await test("a case from a pasted table: low-pass is found, and what is proposed becomes a candidate", async (page, folder) => {
   await caseOf(page, response(20, 30));
   assert.match(await text(page, "#case-said"), /20 rows.*remark was left out/);
-  await shot(page, "case-pasted", { fullPage: true });
   await columnsSaid(page);
   // without a candidate the diagnosis composes one
   await verdict(page, "none of the candidates");
-  await shot(page, "case-composed", { fullPage: true });
   const add = page.locator(".proposals button", { hasText: "Add as candidate" }).first();
   const name = await page.locator(".proposals b").first().innerText();
   await add.click();
@@ -767,7 +763,6 @@ await test("a case from a pasted table: low-pass is found, and what is proposed 
   await field(page, "standard uncertainty u of d").fill("0.02");
   await verdict(page, "low-pass explains");
   assert.deepEqual(JSON.parse(await source(page)).effects.effect.overrides, { gain: "gain*(1 + d)" });
-  await shot(page, "case-own", { fullPage: true });
   await page.keyboard.press("Control+s");
   await page.locator("#dialog input").fill("low.json");
   await page.locator("#dialog-actions button").first().click();
@@ -778,7 +773,6 @@ await test("a case from a pasted table: low-pass is found, and what is proposed 
 
 await test("a diagnosis tells its share and is stopped", async page => {
   await until(page, () => document.getElementById("case-progress").value > 0 && !document.getElementById("case-stop").hidden);
-  await shot(page, "case-running");
   await page.click("#case-stop");
   await until(page, () => !document.getElementById("case-diagnose").hidden && /Stopped/.test(document.getElementById("case-state").textContent));
   // a change does not begin it again
@@ -800,7 +794,6 @@ await test("a ready-made effect that would explain the data is added by its butt
   }
   const add = field(page, "Add low-pass as a candidate");
   await add.waitFor({ timeout: 60000 });
-  await shot(page, "case-unlisted");
   await add.click();
   await verdict(page, "low-pass explains");
   assert.deepEqual(JSON.parse(await source(page)).catalogue, [...catalogue.filter(name => ["phase-offset", "scale-factor"].includes(name)), "low-pass"]);
@@ -853,7 +846,6 @@ await test("a certificate from a result", async (page, folder) => {
   await refined(page);
   await page.click("#certify");
   await page.frameLocator("#report").getByText("251.1").first().waitFor();
-  await shot(page, "certificate-from-result");
   // from another folder the model has another path
   await page.keyboard.press("Control+s");
   await page.locator("#dialog input").fill("certificates/c.json");
