@@ -652,7 +652,13 @@ await test("readings of a table, and another file's result, are picked from list
   await page.locator("#dialog .entry", { hasText: "power" }).click();
   await until(page, () => document.querySelector('[aria-label="Unit of p"]').value === "mW");
   await until(page, () => document.querySelectorAll("#mistakes li").length === 0);
-}, POWER);
+  // each value of a certificate is an entry of its own
+  await field(page, "How p is known").selectOption({ label: "certificate (DCC)" });
+  await page.getByRole("button", { name: "Choose" }).click();
+  await page.locator("#dialog .entry", { hasText: "ref.xml" }).click();
+  await page.locator("#dialog .entry", { hasText: "Measured value 422" }).first().click();
+  await until(page, () => /"distribution": "dcc"[^}]*"file": "ref.xml"[^}]*"index": [1-9]/.test(document.getElementById("source").value));
+}, { open: "power.json", files: [...POWER.files, ["reports/certificate.dcc.xml", "ref.xml"]] });
 
 await test("sixty inputs: three screens, the answer in sight, and what is old is grey", async page => {
   await until(page, () => document.querySelector("#headline .value"));

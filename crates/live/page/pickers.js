@@ -26,10 +26,11 @@ export class Pickers {
         const column = await this.#one(words.pick_column, found.columns.map(name => [name, name, ""]));
         if (column) page.edit([...gone(["values"]), set("file", named), set("column", column)]);
       } else if (way === "dcc" && found.quantities) {
-        const place = await this.#one(words.pick_quantity, found.quantities.map((of, place) =>
-          [String(place), of.name || of.id || of.ref_type || String(place + 1), of.unread || `${of.values.slice(0, 4).join("  ")} ${of.unit || ""}`, of.input === null]));
-        if (!place) return;
-        const { input, unit } = found.quantities[Number(place)];
+        const chosen = await this.#one(words.pick_quantity, found.quantities.flatMap((of, place) => values(of, place)));
+        if (!chosen) return;
+        const [place, index] = JSON.parse(chosen);
+        const { input: first, unit } = found.quantities[place];
+        const input = index === null ? first : { ...first, index };
         const keys = ["id", "ref_type", "within", "status", "quantity", "index", "at"].filter(key => !(key in input));
         page.edit([...gone(keys), ...Object.entries(input).map(([key, value]) => set(key, value)), set("unit", unit || "1")]);
       } else if (way === "result" && found.outputs) {
@@ -55,4 +56,12 @@ export class Pickers {
       make("b", {}, name), " ", make("span", { class: "detail" }, detail)));
     return dialog.choose(title, make("div", { class: "list" }, ...(entries.length ? entries : [make("p", {}, none)])), [[this.words.cancel, null]]);
   }
+}
+
+/** What a list shows of a quantity of a certificate: an entry for each of its values. */
+function values({ name, id, ref_type: type, part, unread, values: all, unit, input }, place) {
+  const said = name || id || type || String(place + 1);
+  const of = part && part.name ? `, ${part.name}` : "";
+  if (input === null) return [[JSON.stringify([place, null]), said, unread || "", true]];
+  return all.map((value, index) => [JSON.stringify([place, all.length > 1 ? index : null]), said, `${value} ${unit || ""}${of}`]);
 }
