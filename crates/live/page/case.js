@@ -2,7 +2,7 @@
 
 import { Effects } from "./effects.js";
 import { Fields } from "./fields.js";
-import { at, make } from "./parts.js";
+import { at, folderOf, labelled, make } from "./parts.js";
 
 // what a column can be for an output, with the key that says so
 const OF_OUTPUT = ["value", "standard_uncertainty", "sim", "sim_standard_uncertainty"];
@@ -138,7 +138,7 @@ export class CaseForm extends Fields {
     const choice = this.page.element("case-file");
     let files;
     try { ({ files } = await this.page.program.ask("files", {})); } catch (error) { return this.page.failed(error); }
-    const folder = path && path.includes("/") ? path.replace(/[^/]*$/, "") : "";
+    const folder = folderOf(path);
     const tables = files.map(of => of.path).filter(of => /\.csv$/i.test(of) && of.startsWith(folder)).map(of => of.slice(folder.length));
     const now = (this.content.observations || {}).file || "";
     if (now && !tables.includes(now)) tables.unshift(now);
@@ -219,7 +219,7 @@ export class CaseForm extends Fields {
     choice.dataset.key = `column\u0001${column.key}`;
     this.fields.set(choice.dataset.key, choice);
     const condition = meanings.find(([meaning]) => meaning === "condition");
-    const unit = condition ? make("span", { class: "labelled" }, make("span", { class: "key", "aria-hidden": true }, words.unit),
+    const unit = condition ? labelled(words.unit,
       this.field([...condition[1], "unit"], words.case_unit(column.name), { kind: "text", list: "units", size: 6, class: "unit" })) : null;
     const also = meanings.slice(1).map(([meaning]) => this.#said(meaning));
     return make("div", { class: "row case-column" },

@@ -3,7 +3,7 @@
 import { CertificateColumns } from "./certificate-columns.js";
 import { CertificateRows } from "./certificate-rows.js";
 import { Fields } from "./fields.js";
-import { at, make, relative } from "./parts.js";
+import { at, folderOf, make, relative } from "./parts.js";
 
 const LANGUAGES = ["en", "de", "fr", "it"];
 const PARTY = ["name", "street", "street_number", "post_code", "city", "country", "email", "phone", "code"];
@@ -62,8 +62,8 @@ export class CertificateForm extends Fields {
 
   // the files of the folder
 
-  /** The folder of the open file, with a slash behind it; empty for the opened folder itself. */
-  get folder() { return (this.page.document.path || "").replace(/[^/]*$/, ""); }
+  /** The folder of the open file. */
+  get folder() { return folderOf(this.page.document.path); }
 
   async #lookForFiles() {
     const of = `${this.page.document.path}\u0001${this.page.pristine}`;
@@ -93,7 +93,7 @@ export class CertificateForm extends Fields {
 
   /** The file gets its first place: the files that it names are found from there. */
   moved(path) {
-    const folder = path.replace(/[^/]*$/, "");
+    const folder = folderOf(path);
     const edits = [];
     const name = (...of) => {
       const now = this.get(of);

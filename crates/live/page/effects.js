@@ -1,6 +1,6 @@
 // The candidate effects of a case: ready-made ones to be ticked, and own ones.
 
-import { at, make } from "./parts.js";
+import { at, free, labelled, make, wholeName } from "./parts.js";
 
 // what a distribution has for how wide and where it is, in the order of reading
 const ORDER = ["mean", "mode", "value", "lower", "upper", "std", "half_width", "expanded", "k"];
@@ -144,7 +144,7 @@ export class Effects {
     choice.dataset.key = at(path) + "#choice";
     form.fields.set(choice.dataset.key, choice);
     return make("div", { class: "row" },
-      make("span", { class: "labelled" }, make("span", { class: "key", "aria-hidden": true }, words.case_changes_short), choice),
+      labelled(words.case_changes_short, choice),
       make("span", { class: "labelled wide" }, make("span", { class: "key", "aria-hidden": true }, words.case_becomes),
         form.field(path, words.case_formula(target, name), { kind: "text", size: 24 })),
       taken.length > 1 ? form.remove(path, target) : null);
@@ -166,11 +166,10 @@ export class Effects {
     const rank = key => (ORDER.indexOf(key) + 99) % 99;
     const cells = [...keys].sort((a, b) => rank(a) - rank(b)).map(key => form.labelled({ key, path: [...path, key] }, name, key === "unit" || key === "about" ? "text" : null));
     const rename = to => {
-      const whole = new RegExp(`(?<![\\p{L}\\p{N}_.])${name.replace(/[.*+?^${}()|[\]\\]/g, "\\$&")}(?![\\p{L}\\p{N}_])`, "gu");
+      const whole = wholeName(name);
       const formulas = Object.entries(this.own[effect].overrides || {}).map(([target, formula]) => [target, formula, formula.replace(whole, to)]);
       return [{ path, rename: to }, ...formulas.filter(([, old, now]) => old !== now).map(([target, , value]) => ({ path: [...above, "overrides", target], value }))];
     };
-    const labelled = (word, field) => make("span", { class: "labelled" }, make("span", { class: "key", "aria-hidden": true }, word), field);
     return make("div", { class: "row" },
       labelled(words.case_parameter, this.#name(path, words.case_parameter_name(name), rename)),
       labelled(words.distribution, choice), ...cells,
@@ -207,9 +206,3 @@ const has = (of, key) => Object.prototype.hasOwnProperty.call(of, key);
 
 /** What is known of a new parameter: about nothing, by an uncertainty that is to be stated. */
 const parameterOf = unit => ({ unit, distribution: "normal", mean: 0, std: null });
-
-function free(wanted, taken) {
-  let name = wanted;
-  for (let number = 2; taken.includes(name); number++) name = `${wanted}${number}`;
-  return name;
-}

@@ -1,6 +1,6 @@
 // Fields that show parts of the file by their paths and change them: what all forms have in common.
 
-import { at, make } from "./parts.js";
+import { at, labelled, make } from "./parts.js";
 
 export class Fields {
   /** Fields of a page within the element of that id. */
@@ -138,7 +138,7 @@ export class Fields {
       kind, size: kind === "list" ? 28 : 7, inputmode: numeric ? "decimal" : null,
       class: kind === "list" ? "list" : numeric ? "figure" : null,
     });
-    return make("span", { class: "labelled" }, make("span", { class: "key", "aria-hidden": true }, word), field);
+    return labelled(word, field);
   }
 
   /** Marks the fields with mistakes. */

@@ -3,7 +3,7 @@
 import { Fields } from "./fields.js";
 import { Pickers } from "./pickers.js";
 import { Slider } from "./slider.js";
-import { at, make, put } from "./parts.js";
+import { at, labelled, make, put } from "./parts.js";
 
 // the ways that most inputs are known by; the other distributions come after them
 const USUAL = ["standard", "expanded", "expanded-p", "limits", "bounds", "datasheet", "readings", "dcc", "result", "constant"];
@@ -180,8 +180,7 @@ export class Form extends Fields {
     const { words } = this;
     const cell = key => row.cells.find(of => of.key === key);
     const path = (...keys) => [...row.path, ...keys];
-    const field = (keys, word, more) => make("span", { class: "labelled" },
-      make("span", { class: "key", "aria-hidden": true }, word), this.field(path(...keys), words.of(word, row.name), more));
+    const field = (keys, word, more) => labelled(word, this.field(path(...keys), words.of(word, row.name), more));
     const complexTolerance = cell("tolerance") && cell("tolerance").kind !== "other";
     return make("div", { class: "row" },
       make("span", { class: "name" }, row.name),
@@ -197,8 +196,7 @@ export class Form extends Fields {
     const name = place => this.field([...of.path, place], `${words.between} ${place + 1}`, { kind: "text", size: 9 });
     return make("div", { class: "row" }, make("span", { class: "key" }, words.between), name(0),
       make("span", { class: "key" }, words.and), name(1),
-      make("span", { class: "labelled" }, make("span", { class: "key", "aria-hidden": true }, "r"),
-        this.field([...of.path, 2], words.coefficient, { size: 6, inputmode: "decimal", class: "figure" })),
+      labelled("r", this.field([...of.path, 2], words.coefficient, { size: 6, inputmode: "decimal", class: "figure" })),
       this.remove(of.path, of.between.join(", ")));
   }
 
@@ -213,9 +211,7 @@ export class Form extends Fields {
     const place = this.page.element("settings");
     if (place.dataset.language !== this.page.language || !place.childElementCount || !this.fields.has(at(["coverage_probability"]))) {
       place.dataset.language = this.page.language;
-      const field = (path, key) => make("span", { class: "labelled" },
-        make("span", { class: "key", "aria-hidden": true }, this.words.key[key]),
-        this.field(path, this.words.key[key], { size: 9, inputmode: "decimal", class: "figure" }));
+      const field = (path, key) => labelled(this.words.key[key], this.field(path, this.words.key[key], { size: 9, inputmode: "decimal", class: "figure" }));
       place.replaceChildren(make("div", { class: "row" }, field(["coverage_probability"], "coverage_probability"),
         field(["coverage_factor"], "coverage_factor"), field(["monte_carlo", "trials"], "trials"),
         field(["monte_carlo", "seed"], "seed"), field(["monte_carlo", "digits"], "digits")));

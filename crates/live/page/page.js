@@ -13,7 +13,7 @@ import { Form } from "./form.js";
 import { Import } from "./import.js";
 import { Mistakes } from "./mistakes.js";
 import { fillPrint } from "./print.js";
-import { at, make, put } from "./parts.js";
+import { at, free, make, put, wholeName } from "./parts.js";
 import { Result } from "./result.js";
 import { Start } from "./start.js";
 import { connect } from "./transport.js";
@@ -202,7 +202,7 @@ class Page {
   rename(path, from, to) {
     if (to === "" || to === from) { this.form.show(this.found, true); return; }
     const edits = [{ path, rename: to }];
-    const name = new RegExp(`(?<![\\p{L}\\p{N}_.])${from.replace(/[.*+?^${}()|[\]\\]/g, "\\$&")}(?![\\p{L}\\p{N}_])`, "gu");
+    const name = wholeName(from);
     for (const { path: of, formula } of this.found.equations || []) {
       const changed = formula.replace(name, to);
       if (changed !== formula) edits.push({ path: of, value: changed });
@@ -233,9 +233,7 @@ class Page {
 
   #freeName(wanted) {
     const taken = [...(this.found && this.found.inputs || []), ...(this.found && this.found.equations || [])].map(of => of.name);
-    let name = wanted;
-    for (let number = 2; taken.includes(name); number++) name = `${wanted}${number}`;
-    return name;
+    return free(wanted, taken);
   }
 
   // what is shown

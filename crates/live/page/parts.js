@@ -53,3 +53,19 @@ export function relative(folder, path) {
   while (same < from.length && same < to.length - 1 && from[same] === to[same]) same++;
   return [...from.slice(same).map(() => ".."), ...to.slice(same)].join("/");
 }
+
+/** The folder of a path, with a slash behind it; empty for the opened folder itself. */
+export const folderOf = path => (path || "").replace(/[^/]*$/, "");
+
+/** A name that is not taken: the wanted one, or that with a number behind it. */
+export function free(wanted, taken) {
+  let name = wanted;
+  for (let number = 2; taken.includes(name); number++) name = `${wanted}${number}`;
+  return name;
+}
+
+/** A name wherever a formula has it as a whole. */
+export const wholeName = name => new RegExp(`(?<![\\p{L}\\p{N}_.])${name.replace(/[.*+?^${}()|[\]\\]/g, "\\$&")}(?![\\p{L}\\p{N}_])`, "gu");
+
+/** A field with a word over it, for fields that say themselves what they are called. */
+export const labelled = (word, field) => make("span", { class: "labelled" }, make("span", { class: "key", "aria-hidden": true }, word), field);

@@ -1,7 +1,7 @@
 // What an input takes from another file is picked from a list: a column of a table, a quantity of a
 // certificate, an output of a saved result.
 
-import { make, relative } from "./parts.js";
+import { folderOf, make, relative } from "./parts.js";
 
 export class Pickers {
   constructor(page) { this.page = page; }
@@ -17,7 +17,7 @@ export class Pickers {
     const file = await this.#one(words.pick_file[way], all.map(of => [of.path, of.path, of.title || ""]), words.pick_none[way]);
     if (!file) return;
     try {
-      const named = relative((page.document.path || "").replace(/[^/]*$/, ""), file);
+      const named = relative(folderOf(page.document.path), file);
       const found = await page.program.call("contents", { file: named }, { path: page.document.path });
       const set = (key, value) => ({ path: [...row.path, key], value });
       const has = key => row.cells.some(cell => cell.key === key);

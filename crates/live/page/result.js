@@ -62,7 +62,10 @@ export class Result {
     const has = found.results !== undefined;
     const results = this.element("results");
     this.isBefore = !has;
-    if (has && found.whole && found.results[0]) this.stated = found.results.every(of => of.statement.kind === "interval") ? "monte-carlo" : found.results.every(of => of.statement.kind === "expanded") ? "gum" : null;
+    if (has && found.whole && found.results.length) {
+      const [kind, ...others] = new Set(found.results.map(of => of.statement.kind));
+      this.stated = others.length ? null : { interval: "monte-carlo", expanded: "gum" }[kind] || null;
+    }
     if (!has) {
       this.age();
       this.element("nothing").textContent = (found.equations || []).length ? words.nothing : words.nothing_yet;

@@ -18,9 +18,9 @@ use crate::ways::{self, CENTRES};
 pub(crate) fn edited(text: &str, edits: &[Edit]) -> Result<String, String> {
     edits.iter().try_fold(text.to_owned(), |now, edit| {
         let bare = now.strip_prefix('\u{feff}').unwrap_or(&now);
-        let root = tree::parse(bare).ok();
-        let meant =
-            edit.as_typed().and_then(|(path, typed)| taken(bare, root.as_ref()?, path, typed));
+        let meant = edit
+            .as_typed()
+            .and_then(|(path, typed)| taken(bare, &tree::parse(bare).ok()?, path, typed));
         match meant {
             Some(meant) => edit::edited(&now, &meant),
             None => edit::edited(&now, std::slice::from_ref(edit)),

@@ -11,7 +11,7 @@ mod unit;
 pub(crate) use number::text as number_text;
 pub(crate) use unit::{formula_text, unit_text, value_text, with_symbols};
 
-use crate::table::shows_print;
+use crate::table::{grouped, shows_print};
 use gumption_units::Unit;
 use std::cell::Cell;
 
@@ -90,17 +90,10 @@ pub(crate) fn text(text: &str) -> String {
 /// A number of a sentence: on pages whole numbers from 10 000 on are in groups of three digits.
 pub(crate) fn number_in_sentence(number: &str) -> String {
     let is_long = number.len() > 4 && number.bytes().all(|byte| byte.is_ascii_digit());
-    if notation() == Notation::File || !is_long {
-        return figure_text(number);
+    match number.parse() {
+        Ok(count) if is_long && notation() != Notation::File => figure_text(&grouped(count)),
+        _ => figure_text(number),
     }
-    let mut grouped = String::with_capacity(number.len() + number.len() / 3);
-    for (place, digit) in number.chars().enumerate() {
-        if place > 0 && (number.len() - place).is_multiple_of(3) {
-            grouped.push('\u{202f}');
-        }
-        grouped.push(digit);
-    }
-    grouped
 }
 
 /// A text in a figure.
