@@ -44,11 +44,11 @@ pub use evaluation::{
 };
 pub use html::{FigureSize, interactive, interactive_script_digest, page_style};
 pub use json::{json, write_json};
-pub use printed::with_comma;
+pub use printed::{grouped, with_comma};
 pub use samples::TrialsForm;
 pub use saved::{SaveError, saved, saved_result};
 pub(crate) use table::conditions_text;
-pub use table::{BudgetColumn, Grid, Screen, grouped, plain, within_screen, within_width, wrapped};
+pub use table::{BudgetColumn, Grid, Screen, plain, within_screen, within_width, wrapped};
 
 use gumption_engine::propagate::Evaluation;
 use gumption_engine::task::{Task, Warning};

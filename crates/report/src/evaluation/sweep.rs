@@ -2,8 +2,8 @@
 
 use super::{Extent, Shown, figures, terminal};
 use crate::document::{Block, Document};
-use crate::table;
-use crate::table::{conditions_text, sweep};
+use crate::printed;
+use crate::table::{self, conditions_text, sweep};
 use crate::{EvaluationReport, wrapped};
 
 /// Rows of a table on a page that is no page for a terminal, at most.
@@ -28,8 +28,8 @@ pub(super) fn sections(document: &mut Document, report: &EvaluationReport<'_>, s
         document.section(table::title_text(&declared.quantity));
         document.table(sweep::sheet(task, rows, output, evaluation.settings.digits_on_pages()));
         if rows.len() < evaluation.rows.len() {
-            let all = table::grouped(evaluation.rows.len() as u64);
-            let first = table::grouped(MOST_ROWS as u64);
+            let all = printed::grouped(evaluation.rows.len() as u64);
+            let first = printed::grouped(MOST_ROWS as u64);
             document.text(format!("The first {first} of {all} rows; all of them: --format csv."));
         }
         let settings = &evaluation.settings;

@@ -2,7 +2,8 @@
 
 use crate::number::{exact, position, to};
 use crate::plot::{Axis, CharacterGrid};
-use crate::table::{grouped, text_width, title_text};
+use crate::printed::grouped;
+use crate::table::{text_width, title_text};
 use crate::wrapped;
 use gumption_engine::model::Quantity;
 use gumption_engine::propagate::OutputEvaluation;

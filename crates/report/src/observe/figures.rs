@@ -12,7 +12,8 @@ use crate::plot::{
     AFTER, Area, Axis, BEFORE, Chart, Drawn, EVEN, Fill, INK, Panel, Titles, mark, px, stroke,
     svg_with_titles,
 };
-use crate::table::{grouped, in_unit};
+use crate::printed::grouped;
+use crate::table::in_unit;
 use gumption_signal::{
     Amplitude, Channel, ChannelObservation, RecordTrace, SampleRanges, SpectrumColumn,
 };

@@ -4,8 +4,9 @@ use super::PlanReport;
 use super::sheets::{DIGITS, at_most};
 use crate::number::{exact, rounded, significant};
 use crate::plain;
+use crate::printed::grouped;
 use crate::table::unit_text;
-use crate::table::{conditions_text, grouped, in_unit, row_numbers};
+use crate::table::{conditions_text, in_unit, row_numbers};
 use gumption_analysis::plan::{
     Costs, DriftLaw, Excess, Improvement, PlanCheck, PlanTarget, PlannedInterval,
 };

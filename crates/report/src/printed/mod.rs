@@ -8,10 +8,11 @@
 mod number;
 mod unit;
 
+pub use number::grouped;
 pub(crate) use number::text as number_text;
 pub(crate) use unit::{formula_text, unit_text, value_text, with_symbols};
 
-use crate::table::{grouped, shows_print};
+use crate::table::shows_print;
 use gumption_units::Unit;
 use std::cell::Cell;
 

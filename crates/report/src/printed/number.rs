@@ -22,6 +22,19 @@ pub(crate) fn text(text: &str) -> String {
     parts.iter().enumerate().map(part).collect::<Vec<_>>().join("`")
 }
 
+/// A count with its digits in groups of three: 1 000 000.
+pub fn grouped(count: u64) -> String {
+    let digits = count.to_string();
+    let mut text = String::with_capacity(digits.len() + digits.len() / 3);
+    for (place, digit) in digits.chars().enumerate() {
+        if place > 0 && (digits.len() - place).is_multiple_of(3) {
+            text.push(' ');
+        }
+        text.push(digit);
+    }
+    text
+}
+
 fn unquoted(text: &str) -> String {
     let letters: Vec<char> = text.chars().collect();
     let mut made = String::with_capacity(text.len());

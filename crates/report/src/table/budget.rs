@@ -5,6 +5,7 @@ use super::rows::{InputRow, page_rows};
 use super::{Grid, coverage_text, text, unit_text};
 use crate::number::{coefficient, exact, position, rounded, significant, with_uncertainty};
 use crate::plot::horizontal_bar;
+use crate::printed::grouped;
 use crate::sheet::{ColumnKind, Figure, Sheet};
 use crate::subtotals::Subtotals;
 use gumption_engine::model::Quantity;
@@ -180,7 +181,7 @@ fn coefficients(task: &Task, gum: &Gum) -> Vec<BudgetCells> {
     let count = gum.correlations().count();
     if count > MOST_COEFFICIENTS {
         let mut cells = BudgetCells::default();
-        cells[0] = format!("{} coefficients", text::grouped(count as u64));
+        cells[0] = format!("{} coefficients", grouped(count as u64));
         cells[4] = "correlation".to_owned();
         cells[8] = percent(gum.correlations().map(|line| line.share).sum());
         return vec![cells];

@@ -1,11 +1,12 @@
 //! The two methods side by side, and the verdict of JCGM 101, clause 8.
 
-use super::{coverage_text, in_unit, text};
+use super::{coverage_text, in_unit};
 use crate::EvaluationReport;
 use crate::document::sentence;
 use crate::number::{
     MISSING, Percent, coarser, exact, justified, place_of_ends, position, rounded, significant, to,
 };
+use crate::printed::grouped;
 use crate::sheet::Sheet;
 use crate::words::{Language, note};
 use gumption_engine::model::{Output, Quantity, Tolerance};
@@ -53,7 +54,7 @@ fn accuracy(output: &Quantity, noiseless: &Noiseless) -> String {
                  points; numerical standard errors of the ends of the symmetric interval {} and {}",
                 crate::plain(&scatter.integrated),
                 scatter.randomizations,
-                text::grouped(scatter.points),
+                grouped(scatter.points),
                 significant(low, 1),
                 number(high)
             )
@@ -161,7 +162,7 @@ fn conformity_text(output: &Quantity, found: &Conformity, trials: Option<u64>) -
     let error =
         (error > 0.0).then(|| format!("numerical standard error {} %", significant(error, 1)));
     let counted = trials.filter(|_| found.without_prior.is_none()).map(|trials| {
-        let trials = text::grouped(trials);
+        let trials = grouped(trials);
         if found.probability > 0.5 {
             format!("all {trials} trials conform")
         } else {
@@ -302,8 +303,8 @@ fn percentage(share: f64) -> String {
 pub(crate) fn stability(output: &Quantity, end: &Adaptive, trials: u64) -> String {
     let Adaptive { rule, block_trials, blocks, tolerance, converged } = *end;
     let tolerance = in_unit(&significant(tolerance, 1), &output.unit);
-    let trials = text::grouped(trials);
-    let block = text::grouped(block_trials);
+    let trials = grouped(trials);
+    let block = grouped(block_trials);
     let made = format!("{trials} trials, {blocks} blocks of {block}");
     let rule = match rule {
         StoppingRule::Clause79 => "JCGM 101, 7.9",
@@ -595,7 +596,7 @@ fn clause_8(output: &Quantity, figures: &OutputEvaluation, monte_carlo: &MonteCa
         return format!(
             "JCGM 101, clause 8: undecided whether the GUM interval is validated: with only {} trials \
              the endpoints of the Monte Carlo interval are the extreme trials.",
-            text::grouped(monte_carlo.trials)
+            grouped(monte_carlo.trials)
         );
     }
     let low = difference(d_low, low_error);
@@ -614,7 +615,7 @@ fn clause_8(output: &Quantity, figures: &OutputEvaluation, monte_carlo: &MonteCa
         None => format!(
             "JCGM 101, clause 8: undecided whether the GUM interval is validated: {ends}, too near to \
              {limit} for {} trials{}.",
-            text::grouped(monte_carlo.trials),
+            grouped(monte_carlo.trials),
             of_results(figures, monte_carlo)
         ),
     }
@@ -655,7 +656,7 @@ fn of_results(figures: &OutputEvaluation, monte_carlo: &MonteCarlo) -> String {
     let results = figures.inherited.iter().flat_map(|inherited| &inherited.results);
     let fewest = results.map(|(_, trials)| *trials).fold(f64::INFINITY, f64::min);
     if fewest < monte_carlo.trials as f64 {
-        format!(" and a saved result of {}", text::grouped(fewest as u64))
+        format!(" and a saved result of {}", grouped(fewest as u64))
     } else {
         String::new()
     }

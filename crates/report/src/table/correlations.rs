@@ -2,6 +2,7 @@
 
 use super::text;
 use crate::number::justified;
+use crate::printed::grouped;
 use crate::sheet::{Figure, Sheet};
 use gumption_engine::propagate::RowEvaluation;
 use gumption_engine::task::Task;
@@ -29,7 +30,7 @@ pub(crate) fn found(task: &Task, row: &RowEvaluation) -> Option<Coefficients> {
     }
     let pairs = row.correlations.len();
     if pairs > MOST_PAIRS {
-        let pairs = text::grouped(pairs as u64);
+        let pairs = grouped(pairs as u64);
         let said = format!("{pairs} correlation coefficients of the outputs: --format json");
         return Some(Coefficients::TooMany(said));
     }

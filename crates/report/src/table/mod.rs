@@ -13,14 +13,14 @@ mod width;
 
 pub use columns::BudgetColumn;
 pub use grid::Grid;
-pub use text::{grouped, plain, wrapped};
 pub(crate) use text::{one_line, printable};
+pub use text::{plain, wrapped};
 pub(crate) use width::USUAL;
 pub use width::{Screen, within_screen, within_width};
 pub(crate) use width::{shows_print, text_width, width};
 
 use super::number::exact;
-use super::printed;
+use super::printed::{self, grouped};
 use gumption_engine::decimal::to_position;
 use gumption_engine::model::{InputQuantity, Quantity};
 use gumption_engine::propagate::{Evaluation, RowEvaluation};

@@ -42,16 +42,3 @@ pub fn wrapped(text: &str) -> String {
     grid.text("", [text]);
     grid.bare(text_width())
 }
-
-/// A count with its digits in groups of three: 1 000 000.
-pub fn grouped(count: u64) -> String {
-    let digits = count.to_string();
-    let mut text = String::with_capacity(digits.len() + digits.len() / 3);
-    for (place, digit) in digits.chars().enumerate() {
-        if place > 0 && (digits.len() - place).is_multiple_of(3) {
-            text.push(' ');
-        }
-        text.push(digit);
-    }
-    text
-}

@@ -9,7 +9,8 @@ use crate::plain;
 use crate::plot::{
     AFTER, Area, Axis, Chart, Drawn, EVEN, Fill, INK, Panel, Titles, mark, stroke, svg_with_titles,
 };
-use crate::table::{grouped, in_unit};
+use crate::printed::grouped;
+use crate::table::in_unit;
 use gumption_engine::model::Quantity;
 use gumption_engine::propagate::monte_carlo::MonteCarlo;
 

@@ -12,7 +12,8 @@ use crate::plot::{
     AFTER, Anchor, Area, Axis, BEFORE, Drawn, EVEN, FAINT, FONT, INK, Layer, STRIP_AXIS, Strip,
     Titles, Write, centred, faded, line, px, shortened, stroke, svg_in_layers, write,
 };
-use crate::table::{grouped, in_unit, title_text};
+use crate::printed::grouped;
+use crate::table::{in_unit, title_text};
 use gumption_engine::model::Quantity;
 use gumption_engine::propagate::OutputEvaluation;
 use gumption_engine::propagate::gum::{Dof, Gum};

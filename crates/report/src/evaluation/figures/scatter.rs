@@ -11,7 +11,8 @@ use crate::html::Drawing;
 use crate::number::exact;
 use crate::plain;
 use crate::plot::{Area, Axis, BEFORE, Drawn, Panel, WEAK, dashed, px, stroke, svg};
-use crate::table::{grouped, unit_text};
+use crate::printed::grouped;
+use crate::table::unit_text;
 use gumption_engine::model::Quantity;
 
 /// Numbers of outputs whose pairs are drawn.
