@@ -154,6 +154,10 @@ def shifted_in_place(a: Any, b: Any) -> Any:
 
 #: What formulas say.
 FORMULAS: dict[str, Function] = {
+    "np.abs of a complex number": lambda a, b: np.abs(a + 1j * b),
+    "np.angle": lambda a, b: np.angle(a + 1j * b),
+    "np.exp of a complex number": lambda a, b: np.exp(1j * a).real + b,
+    "np.sqrt of a complex number": lambda a, b: np.sqrt(a - b + 0j).imag,
     "sum": lambda a, b: a + b,
     "powers": lambda a, b: a**2 + b**3 - a**-1,
     "root": lambda a, b: (a * b) ** 0.5,
@@ -281,10 +285,6 @@ COLUMNS: dict[str, Function] = {
     "np.modf": lambda a, b: np.modf(10 * a)[0] + b,
     "np.divmod": lambda a, b: np.divmod(10 * a, b)[1],
     "np.logaddexp": lambda a, b: np.logaddexp(a, b),
-    "np.angle": lambda a, b: np.angle(a + 1j * b),
-    "np.abs of a complex number": lambda a, b: np.abs(a + 1j * b),
-    "np.exp of a complex number": lambda a, b: np.exp(1j * a).real + b,
-    "np.sqrt of a complex number": lambda a, b: np.sqrt(a - b + 0j).imag,
     "mask of a copy": masked,
     "np.errstate": with_error_state,
     "np.max over an axis": lambda a, b: np.max([a, b], axis=0),

@@ -274,13 +274,13 @@ fn kelvin(mut typing: Typing) -> Typing {
     typing
 }
 
-/// Complex quantities that are pairs of inputs, and in models that have some the imaginary unit.
+/// Complex quantities that are pairs of inputs, and the imaginary unit where formulas name it.
 fn define_complex(scope: &mut Scope, of: &Quantities, equations: &[Equation<'_>]) {
     for (whole, unit) in complex_inputs(of) {
         scope.define(whole, Typing::in_unit(unit));
         scope.define_complex(whole);
     }
-    if has_complex(of) && !is_quantity(IMAGINARY_UNIT, of, equations) {
+    if names_imaginary_unit(equations) && !is_quantity(IMAGINARY_UNIT, of, equations) {
         scope.define(IMAGINARY_UNIT, Typing::NUMBER);
         scope.define_complex(IMAGINARY_UNIT);
     }
@@ -317,11 +317,16 @@ pub(super) fn imaginary_unit_hidden(
     of: &Quantities,
     equations: &[Equation<'_>],
 ) -> Option<Warning> {
-    let mut formulas = equations.iter().filter_map(|(_, _, formula)| formula.as_ref());
-    let is_used = |formula: &Formula| formula.names().any(|(name, _)| name == IMAGINARY_UNIT);
-    let is_hidden =
-        has_complex(of) && is_quantity(IMAGINARY_UNIT, of, equations) && formulas.any(is_used);
+    let is_hidden = has_complex(of)
+        && is_quantity(IMAGINARY_UNIT, of, equations)
+        && names_imaginary_unit(equations);
     is_hidden.then(|| Warning::new(IMAGINARY_UNIT, fact!("imaginary-unit")))
+}
+
+/// Whether a formula has the name of the imaginary unit in it.
+fn names_imaginary_unit(equations: &[Equation<'_>]) -> bool {
+    let mut formulas = equations.iter().filter_map(|(_, _, formula)| formula.as_ref());
+    formulas.any(|formula: &Formula| formula.names().any(|(name, _)| name == IMAGINARY_UNIT))
 }
 
 /// The name of the imaginary unit.
@@ -348,8 +353,14 @@ pub(super) fn check_formula_outputs(log: &Collector, scope: &Scope, of: &Quantit
             continue;
         };
         if whole.is_none() && scope.is_complex(name) {
-            let reason = "is complex; say how it is reported: \"complex\": \"re-im\" or \"polar\"";
-            let (name, reason) = (name.clone(), reason.to_owned());
+            // in a file that says nothing of complex quantities somebody may have meant another one
+            let why = match has_complex(of) {
+                true => "is complex",
+                false => "is complex, as `i` is the imaginary unit where no quantity has this name",
+            };
+            let reason =
+                format!("{why}; say how it is reported: \"complex\": \"re-im\" or \"polar\"");
+            let name = name.clone();
             log.report(place, DiagnosticKind::Complex { name, reason });
             continue;
         }

@@ -314,6 +314,31 @@ impl Unit {
         decibel.filter(|_| self.has_reference()).unwrap_or_else(|| self.clone())
     }
 
+    /// The product of powers of units, with the factors of one unit merged: `V/ohm` and `ohm` give `V`.
+    /// `None` where an exponent or the text would be out of range.
+    ///
+    /// ```
+    /// use gumption_units::{Exponent, Unit};
+    ///
+    /// let parts = [("g", 1), ("mm", -2), ("mm", -1)];
+    /// let parts = parts.map(|(text, power)| (Unit::parse(text).unwrap(), Exponent::integer(power)));
+    /// assert_eq!(Unit::product(parts).unwrap().text(), "g/mm^3");
+    /// ```
+    pub fn product(parts: impl IntoIterator<Item = (Self, Exponent)>) -> Option<Self> {
+        let mut merged: Vec<Factor> = Vec::new();
+        for (unit, power) in parts {
+            for factor in unit.factors {
+                let exponent = factor.exponent.checked_mul(power)?;
+                match merged.iter_mut().find(|known| known.base == factor.base) {
+                    Some(known) => known.exponent = known.exponent.checked_add(exponent)?,
+                    None => merged.push(Factor { exponent, ..factor }),
+                }
+            }
+        }
+        merged.retain(|factor| !factor.exponent.is_zero());
+        Self::parse(&factor::normal_text(&merged)).ok()
+    }
+
     /// A value in this unit, converted to the coherent SI unit. Degrees Celsius are not shifted.
     ///
     /// Rounded once if the size of the unit is a quotient of moderate integers, as for `mm` or

@@ -110,6 +110,37 @@ pub(crate) fn unit_within(py: Python<'_>, unit: &str) -> PyResult<(String, bool,
     Ok((within, parsed.zero().is_some(), is_angle))
 }
 
+/// The text of a product of powers of units, of a numerator and a denominator each.
+#[pyfunction]
+pub(crate) fn unit_product(py: Python<'_>, parts: Vec<(String, i32, i32)>) -> PyResult<String> {
+    let mut factors = Vec::with_capacity(parts.len());
+    for (unit, numerator, denominator) in &parts {
+        let parsed = gumption::unit::Unit::parse(unit);
+        let parsed = parsed.map_err(|error| argument(py, format!("the unit `{unit}`: {error}")))?;
+        let power = gumption::unit::Exponent::new(*numerator, *denominator);
+        factors.push((parsed, power.ok_or_else(|| argument(py, "an exponent out of range"))?));
+    }
+    let product = gumption::unit::Unit::product(factors);
+    let product =
+        product.ok_or_else(|| argument(py, "the exponents of a unit are out of range"))?;
+    Ok(product.text().to_owned())
+}
+
+/// The unit of the difference of two values in a unit: `K` for `degC`, `dB` for `dBm`.
+#[pyfunction]
+pub(crate) fn unit_of_differences(py: Python<'_>, unit: &str) -> PyResult<String> {
+    let parsed = gumption::unit::Unit::parse(unit);
+    let parsed = parsed.map_err(|error| argument(py, format!("the unit `{unit}`: {error}")))?;
+    let text = parsed.of_differences().text().to_owned();
+    Ok(if parsed.is_celsius() { "K".to_owned() } else { text })
+}
+
+/// An estimate and its standard uncertainty, to two digits of this one.
+#[pyfunction]
+pub(crate) fn rounded(estimate: f64, standard_uncertainty: f64) -> (String, String) {
+    gumption::report::number::with_uncertainty(estimate, standard_uncertainty, 2)
+}
+
 /// Whether values in one unit can be converted to another.
 #[pyfunction]
 pub(crate) fn units_fit(first: &str, second: &str) -> bool {

@@ -41,6 +41,9 @@ fn _gumption(module: &Bound<'_, PyModule>) -> PyResult<()> {
     module.add_function(wrap_pyfunction!(call::carried_models, module)?)?;
     module.add_function(wrap_pyfunction!(call::case_source, module)?)?;
     module.add_function(wrap_pyfunction!(call::main, module)?)?;
+    module.add_function(wrap_pyfunction!(call::rounded, module)?)?;
+    module.add_function(wrap_pyfunction!(call::unit_of_differences, module)?)?;
+    module.add_function(wrap_pyfunction!(call::unit_product, module)?)?;
     module.add_function(wrap_pyfunction!(call::unit_scale, module)?)?;
     module.add_function(wrap_pyfunction!(call::unit_within, module)?)?;
     module.add_function(wrap_pyfunction!(call::units_fit, module)?)?;

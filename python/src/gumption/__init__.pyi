@@ -1,3 +1,9 @@
+from gumption._arrays import (
+    Quantities as Quantities,
+    array as array,
+    complex_normal as complex_normal,
+    correlated as correlated,
+)
 from gumption._budgets import OutputBudgets as OutputBudgets, budgets as budgets
 from gumption._commands import (
     Answer as Answer,
@@ -32,6 +38,13 @@ from gumption._model import (
     from_dict as from_dict,
     from_json as from_json,
     load as load,
+)
+from gumption._quantity import (
+    Comparison as Comparison,
+    ComplexUncertainty as ComplexUncertainty,
+    Expression as Expression,
+    Quantity as Quantity,
+    model_of as model_of,
 )
 from gumption._result import (
     Budget as Budget,
@@ -70,8 +83,11 @@ __all__ = [
     "Answer",
     "Budget",
     "Certificate",
+    "Comparison",
+    "ComplexUncertainty",
     "Diagnosis",
     "Effect",
+    "Expression",
     "Gum",
     "Input",
     "Measurement",
@@ -81,11 +97,14 @@ __all__ = [
     "NotTracedWarning",
     "Output",
     "OutputBudgets",
+    "Quantities",
+    "Quantity",
     "Result",
     "Runs",
     "SampleTable",
     "Samples",
     "arcsine",
+    "array",
     "assumptions",
     "beta",
     "budgets",
@@ -93,8 +112,10 @@ __all__ = [
     "certificate",
     "check",
     "compare",
+    "complex_normal",
     "components",
     "constant",
+    "correlated",
     "curvilinear_trapezoid",
     "diagnose",
     "diff",
@@ -110,6 +131,7 @@ __all__ = [
     "log_uniform",
     "lognormal",
     "model",
+    "model_of",
     "normal",
     "observe",
     "poisson_count",

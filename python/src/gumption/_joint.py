@@ -12,7 +12,7 @@ from collections.abc import Iterable, Iterator, Mapping
 from typing import TYPE_CHECKING, Any
 
 from gumption import _gumption
-from gumption._quantities import as_input, is_number, shared
+from gumption._quantities import as_input, is_linked, shared
 from gumption._shapes import Input
 
 if TYPE_CHECKING:
@@ -222,7 +222,7 @@ def _sharing(known: Mapping[str, Any]) -> list[str]:
         groups[name] = group = value._result.identity if is_output(value) else name
         for identity, of in _origins(value):
             owners.setdefault(identity, {}).setdefault(group, []).append(name)
-            if is_number(of):
+            if is_linked(of):
                 numbers[f"{name}/{len(numbers)}"] = of
     found = {
         name

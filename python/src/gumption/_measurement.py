@@ -17,7 +17,7 @@ from gumption._block import BlockFunction, Way
 from gumption._check import checked
 from gumption._frames import condition_file
 from gumption._joint import identity_of
-from gumption._model import Model, take_inputs
+from gumption._model import Model, take_inputs, written
 from gumption._quantities import as_alone, as_known, unit_of
 from gumption._shapes import Input
 from gumption._trace import NotTraceable, Traced, decision_formulas, equations
@@ -265,8 +265,8 @@ class Measurement:
         if all_known.keys() != known.keys() and self.equations is None:
             raise _gumption.ModelError(
                 f"`{self.title}` could not be traced ({self.why_not_traced}), so it cannot be evaluated "
-                "together with the models of results that go back to the same quantity; write one function "
-                "of what they go back to"
+                "together with expressions, or with the models of results that go back to the same quantity; "
+                "write one function of what they go back to"
             )
         # it says which quantities there are, where the function computes in its place
         whole = " + ".join([*known, *self.conditions])
@@ -293,8 +293,7 @@ class Measurement:
 
     def _read(self, file: Mapping[str, Any], held: Mapping[str, bytes]) -> _gumption.Model:
         name = f"<{getattr(self, '__name__', 'model')}>"
-        text = json.dumps(file, indent=1, ensure_ascii=False, allow_nan=False)
-        return _gumption.Model(name, text, "", list(held.items()))
+        return _gumption.Model(name, written(file), "", list(held.items()))
 
     def _warn(self, function: BlockFunction | None, difference: str | None) -> None:
         """Warns that Python evaluates a function, with the reason."""

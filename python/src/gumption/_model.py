@@ -11,6 +11,7 @@ from typing import TYPE_CHECKING, Any
 from gumption import _gumption
 from gumption._frames import condition_file, readings_file
 from gumption._joint import Joint, identity_of
+from gumption._quantity import Expression, formulas
 from gumption._quantities import as_input, as_known, shared, unit_of
 from gumption._result import Result
 
@@ -327,7 +328,7 @@ class Model:
         self, file: Mapping[str, Any], held: Mapping[str, bytes], known: Mapping[str, Any] | None
     ) -> Model:
         name, _, folder, _, allow, replaced, accept, readings = self._rust.source
-        text = _json(file)
+        text = written(file)
         files = list(held.items())
         made = _gumption.Model(name, text, folder, files, allow, replaced, accept, readings)
         return self._derived(made, known)
@@ -396,6 +397,7 @@ def take_inputs(
         The files that the inputs name, and all inputs.
     """
     held: dict[str, bytes] = {}
+    given, units = _insert_expressions(file, given, units)
     taken = [name for key in ("inputs", "equations", "outputs", "conditions") for name in file.get(key, ())]
     check_units = file.get("check_units", True)
     joint = Joint.of({**kept, **given}, units, taken, check_units)
@@ -436,7 +438,31 @@ def take_inputs(
     return held, known
 
 
-def _json(file: Mapping[str, Any]) -> str:
+def _insert_expressions(
+    file: dict[str, Any], given: Mapping[str, Any], units: Mapping[str, str]
+) -> tuple[Mapping[str, Any], Mapping[str, str]]:
+    """Writes inputs that are expressions as formulas of what is in them, and gives this and its units."""
+    expressions = {name: value for name, value in given.items() if isinstance(value, Expression)}
+    if not expressions:
+        return given, units
+    if not file.get("check_units", True):
+        names = ", ".join(f"`{name}`" for name in expressions)
+        raise _gumption.ModelError(
+            f"{names}: an expression computes in coherent units, and the model with the numbers of its declared "
+            "units; give an output of the expression's run"
+        )
+    taken = [name for key in ("inputs", "equations", "outputs", "conditions") for name in file.get(key, ())]
+    equations, leaves = formulas(expressions, taken)
+    for name in expressions:
+        del file["inputs"][name]
+    file["inputs"].update(dict.fromkeys(leaves))
+    file["equations"] = {**equations, **file.get("equations", {})}
+    own = {name: value for name, value in given.items() if name not in expressions}
+    return {**own, **leaves}, {**units, **dict.fromkeys(leaves, "1")}
+
+
+def written(file: Mapping[str, Any]) -> str:
+    """The text of a model file."""
     return json.dumps(file, indent=1, ensure_ascii=False, allow_nan=False)
 
 
@@ -567,5 +593,5 @@ def from_dict(
         units = {n: of if isinstance(of, str) else of.get("unit", "1") for n, of in asked.items()}
         made["conditions"], tables = condition_file(conditions, units)
         held.update(tables)
-    rust = _gumption.Model(name, _json(made), os.fspath(folder), list(held.items()))
+    rust = _gumption.Model(name, written(made), os.fspath(folder), list(held.items()))
     return Model._of(rust, known=known)

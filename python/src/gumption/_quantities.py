@@ -12,6 +12,7 @@ from typing import Any
 
 import numpy as np
 
+from gumption._quantity import Expression, Quantity
 from gumption._shapes import Input, plain
 
 
@@ -155,6 +156,8 @@ def as_input(value: Any, name: str = "the input") -> Input:
             drawn = np.asarray(getattr(distribution, "value", distribution), dtype=float)
             return Input({"distribution": "samples", "values": (drawn * factor).tolist()}, unit)
         return Input({"distribution": "constant", "value": float(value.value) * factor}, unit)
+    if isinstance(value, Expression):
+        raise TypeError(f"{name}: an expression is no input here; give an output of its run, `.run()[\"y\"]`")
     if isinstance(value, Mapping):
         spec = dict(plain(value))
         return Input(spec, spec.pop("unit", None))
@@ -172,30 +175,33 @@ def as_input(value: Any, name: str = "the input") -> Input:
     )
 
 
-def is_number(value: Any) -> bool:
-    """Whether it is a number of a library that tracks correlations."""
+def is_linked(value: Any) -> bool:
+    """Whether it tells its correlations with others: a number of ``uncertainties`` or ``GTC``, or an input of
+    which some are declared."""
     inner = _inner(value)
-    return is_ufloat(inner) or is_gtc(inner)
+    return is_ufloat(inner) or is_gtc(inner) or (isinstance(value, Input) and bool(value.links))
 
 
 def as_known(value: Any, name: str) -> Any:
-    """A value that tracks its correlations: an `Input`, an output of a result, or a number of
+    """A value that tracks its correlations: an `Input`, an output of a result, an expression, or a number of
     ``uncertainties`` or ``GTC``."""
-    return value if hasattr(value, "_as_input") or is_number(value) else as_input(value, name)
+    if isinstance(value, Expression) or hasattr(value, "_as_input") or is_linked(value):
+        return value
+    return as_input(value, name)
 
 
 def as_alone(value: Any, name: str) -> Input:
     """An input; for an output of a result from its estimate and standard uncertainty."""
-    if not hasattr(value, "_as_input"):
+    if not isinstance(value, Expression) and not hasattr(value, "_as_input"):
         return as_input(value, name)
-    u = value.gum.standard_uncertainty
-    found = _normal(value.gum.estimate, u if math.isfinite(u) else 0.0)
+    estimate, u = value.estimate, value.u
+    found = _normal(estimate, u if math.isfinite(u) else 0.0)
     return Input(found.spec, value.unit)
 
 
 def unit_of(value: Any) -> str | None:
     """The unit stored with a value."""
-    if isinstance(value, Input) or hasattr(value, "_as_input"):
+    if isinstance(value, Quantity) or hasattr(value, "_as_input"):
         unit = value.unit
         assert unit is None or isinstance(unit, str)
         return unit
@@ -207,8 +213,13 @@ def _inner(value: Any) -> Any:
 
 
 def shared(values: Mapping[str, Any]) -> list[tuple[str, str, float]]:
-    """Correlation coefficients of numbers that depend on the same variables."""
+    """Correlation coefficients of numbers that depend on the same variables, and of linked inputs."""
     found: list[tuple[str, str, float]] = []
+    inputs = {value.identity: name for name, value in values.items() if isinstance(value, Input)}
+    for name, value in values.items():
+        if isinstance(value, Input):
+            others = ((inputs.get(other), r) for other, r in value.links.items())
+            found += [(name, other, r) for other, r in others if other is not None and name < other]
     named = [(name, _inner(value)) for name, value in values.items()]
     floats = [(name, value) for name, value in named if is_ufloat(value) and value.std_dev > 0]
     if len(floats) > 1:

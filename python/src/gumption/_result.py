@@ -15,6 +15,7 @@ import numpy.typing as npt
 
 from gumption import _gumption
 from gumption._frames import frame_of
+from gumption._quantity import Quantity
 from gumption._samples import Samples, SampleTable
 from gumption._shapes import Input
 
@@ -57,7 +58,7 @@ class _Figures:
         self._output = output
 
     def _figure(self, name: str) -> Figure:
-        return self._output._figure(f"{self._method}.{name}")
+        return self._output._column(f"{self._method}.{name}")
 
     def _pair(self, low: str, high: str) -> npt.NDArray[np.float64]:
         return np.stack([np.asarray(self._figure(low)), np.asarray(self._figure(high))], axis=-1)
@@ -196,7 +197,7 @@ class Budget(Mapping[str, Any]):
         return "\n".join("  ".join(c.rjust(w) for c, w in zip(row, widths)) for row in rows)
 
 
-class Output:
+class Output(Quantity):
     """One output of a result.
 
     It can be an input of another model, with its distribution and with its correlations with other
@@ -204,11 +205,25 @@ class Output:
     """
 
     def __init__(self, result: Result, name: str) -> None:
+        super().__init__(name)
         self._result = result
         self.name = name
         self.unit = dict(result._run.outputs)[name]
 
-    def _figure(self, name: str) -> Figure:
+    @property
+    def _unit(self) -> str:
+        return self.unit
+
+    def _evaluated(self) -> Output:
+        return self
+
+    def _figure(self, name: str) -> Any:
+        return getattr(self.gum, name)
+
+    def __reduce__(self) -> Any:
+        return Output, (self._result, self.name)
+
+    def _column(self, name: str) -> Figure:
         column: npt.NDArray[np.float64] = self._result._run.column(self.name, name)
         return column if self._result._run.swept else float(column[0])
 
@@ -242,7 +257,7 @@ class Output:
 
         With conditions an array of 1, 0 and NaN.
         """
-        found = self._figure("validation.gum_valid")
+        found = self._column("validation.gum_valid")
         if isinstance(found, float):
             return None if np.isnan(found) else bool(found)
         return found
@@ -250,7 +265,7 @@ class Output:
     @property
     def conformance_probability(self) -> Figure:
         """The probability of conformance to the output's tolerance; NaN without a tolerance."""
-        return self._figure("conformity.probability")
+        return self._column("conformity.probability")
 
     def samples(self, row: int = 0) -> Samples:
         """The trials in a row of conditions."""
@@ -316,6 +331,15 @@ class Result(Mapping[str, Output]):
         if name not in names:
             raise KeyError(f"there is no output {name!r}; there are {', '.join(names)}")
         return Output(self, name)
+
+    def __getattr__(self, name: str) -> Output:
+        # an output by its name, where nothing else has it
+        if not name.startswith("_") and name in dict(self._run.outputs):
+            return self[name]
+        raise AttributeError(f"the result has no attribute and no output {name!r}")
+
+    def __dir__(self) -> list[str]:
+        return [*super().__dir__(), *(name for name in self if name.isidentifier())]
 
     def __iter__(self) -> Iterator[str]:
         return iter(name for name, _ in self._run.outputs)

@@ -1,7 +1,7 @@
 """Input quantities: every distribution of a model file as a function.
 
 Each function returns an `Input`. Keys of a model file's input without an argument of their own are
-further keyword arguments: ``about`` (the source of uncertainty in words), ``type`` (``"A"`` or
+further keyword arguments: ``name`` (what it is called in formulas and budgets), ``about`` (the source of uncertainty in words), ``type`` (``"A"`` or
 ``"B"``), ``group``, ``per`` (``"row"`` or the name of a condition), ``evidence`` and so on.
 
 A width (``std``, ``half_width``, ``expanded``, ``scale``) is a number in the input's unit, or a
@@ -18,11 +18,13 @@ from typing import Any, Union
 import numpy as np
 import numpy.typing as npt
 
+from gumption._quantity import Quantity
+
 #: A number, or a text that a model file may have in its place.
 Value = Union[float, str]
 
 
-class Input:
+class Input(Quantity):
     """An input quantity, as in a model file.
 
     Parameters
@@ -37,6 +39,10 @@ class Input:
         The identity of the quantity; by default a new one.
     parts : iterable of str
         The identities of its components.
+    name : str, optional
+        Its name in formulas and budgets, where no model gives it another one.
+    links : mapping of str to float, optional
+        Correlation coefficients with the inputs of these identities.
 
     Notes
     -----
@@ -45,7 +51,7 @@ class Input:
     objects are the same quantity.
     """
 
-    __slots__ = ("held", "identity", "parts", "spec", "unit")
+    __slots__ = ("held", "identity", "links", "parts", "spec", "unit")
 
     def __init__(
         self,
@@ -54,12 +60,29 @@ class Input:
         held: Iterable[tuple[str, bytes]] = (),
         identity: str | None = None,
         parts: Iterable[str] = (),
+        name: str = "",
+        links: Mapping[str, float] | None = None,
     ) -> None:
+        super().__init__(name)
         self.spec: dict[str, Any] = dict(spec)
         self.unit = unit
         self.held: tuple[tuple[str, bytes], ...] = tuple(held)
         self.identity = identity if identity is not None else uuid.uuid4().hex
         self.parts: tuple[str, ...] = tuple(parts)
+        self.links: dict[str, float] = dict(links or {})
+
+    @property
+    def name(self) -> str:
+        """Its name in formulas and budgets, where no model gives it another one; empty without one."""
+        return self.symbol
+
+    @property
+    def _unit(self) -> str:
+        return self.unit if self.unit is not None else "1"
+
+    @property
+    def _is_exact(self) -> bool:
+        return self.spec.get("distribution") == "constant"
 
     def to_dict(self, unit: str = "1") -> dict[str, Any]:
         """The input as in a model file; `unit` is used if it has none of its own."""
@@ -69,7 +92,8 @@ class Input:
         return f"gumption.Input({self.spec!r}, unit={self.unit!r})"
 
     def __reduce__(self) -> tuple[Any, ...]:
-        return Input, (self.spec, self.unit, self.held, self.identity, self.parts)
+        own = (self.spec, self.unit, self.held, self.identity, self.parts, self.symbol, self.links)
+        return Input, own
 
 
 def plain(value: Any) -> Any:
@@ -89,10 +113,12 @@ def _shape(
     distribution: str | None, unit: str | None, fields: Mapping[str, Any], more: Mapping[str, Any]
 ) -> Input:
     spec = {} if distribution is None else {"distribution": distribution}
+    more = dict(more)
+    name = more.pop("name", "")
     for key, value in {**fields, **more}.items():
         if value is not None:
             spec[key] = plain(value)
-    return Input(spec, unit)
+    return Input(spec, unit, name=name)
 
 
 def constant(value: Value, unit: str | None = None, **more: Any) -> Input:
@@ -298,7 +324,7 @@ def result(file: str | os.PathLike[str], output: str, unit: str | None = None, *
     # two files of one name are told apart
     name = f"{hashlib.sha256(content).hexdigest()[:16]}.result.json"
     found = _shape("result", unit, {"file": name, "output": output}, more)
-    return Input(found.spec, unit, [(name, content)])
+    return Input(found.spec, unit, [(name, content)], name=found.name)
 
 
 def components(mean: Value | None, parts: Mapping[str, Input], unit: str | None = None, **more: Any) -> Input:
@@ -318,7 +344,7 @@ def components(mean: Value | None, parts: Mapping[str, Input], unit: str | None 
     own = [{"name": name, **part.spec} for name, part in parts.items()]
     held = [file for part in parts.values() for file in part.held]
     found = _shape(None, unit, {"mean": mean, "components": own}, more)
-    return Input(found.spec, unit, held, parts=[part.identity for part in parts.values()])
+    return Input(found.spec, unit, held, parts=[part.identity for part in parts.values()], name=found.name)
 
 
 def known(unit: str | None = None, **keys: Any) -> Input:

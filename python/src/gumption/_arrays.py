@@ -1,0 +1,384 @@
+"""Arrays of quantities, with their correlations."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable, Sequence
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+import numpy.typing as npt
+
+from gumption._quantities import as_input
+from gumption._quantity import Quantity, model_of
+from gumption._shapes import Input, normal
+
+if TYPE_CHECKING:
+    from gumption._model import Model
+    from gumption._result import Result
+
+Numbers = npt.NDArray[np.float64]
+
+
+class Quantities(np.ndarray[Any, np.dtype[Any]]):
+    """An array of quantities; `array` and `correlated` make it.
+
+    Operators and functions of NumPy work element by element, and so do sums, products, ``@`` and the
+    methods of arrays. Of ``numpy.linalg`` there are ``inv``, ``solve`` and ``det``.
+    """
+
+    @property
+    def estimate(self) -> Any:
+        """The estimates."""
+        return self._each("estimate")
+
+    @property
+    def u(self) -> Any:
+        """The standard uncertainties."""
+        return self._each("u")
+
+    @property
+    def U(self) -> Any:  # noqa: N802 - the symbol of the GUM
+        """The expanded uncertainties for 95 %."""
+        return self._each("U")
+
+    @property
+    def dof(self) -> Any:
+        """The effective degrees of freedom."""
+        return self._each("dof")
+
+    @property
+    def unit(self) -> Any:
+        """The unit, if all have the same; else an array of units."""
+        units = [of._unit for of in self._quantities()]
+        if len(set(units)) == 1:
+            return units[0]
+        return np.array(units).reshape(self.shape)
+
+    @property
+    def correlation(self) -> Numbers:
+        """The correlation matrix of the quantities in the order of ``ravel()``, by the law of propagation."""
+        return self.run(trials=0).correlations()
+
+    @property
+    def covariance(self) -> Numbers:
+        """The covariance matrix of the quantities in the order of ``ravel()``, by the law of propagation."""
+        result = self.run(trials=0)
+        u = np.array([of.gum.standard_uncertainty for of in result.values()], dtype=float)
+        matrix: Numbers = result.correlations() * np.outer(u, u)
+        return matrix
+
+    def model(self, names: Sequence[str] | None = None, *, title: str | None = None) -> Model:
+        """One model of all quantities.
+
+        Parameters
+        ----------
+        names : sequence of str, optional
+            The names of the outputs in the order of ``ravel()``; ``y1``, ``y2`` and so on unless given.
+        title : str, optional
+            The title of its pages.
+        """
+        quantities = self._quantities()
+        if names is None:
+            names = [f"y{place}" for place in range(1, len(quantities) + 1)]
+        if len(names) != len(quantities):
+            raise ValueError(f"`names`: {len(names)} are given for {len(quantities)} quantities")
+        if len(set(names)) != len(names):
+            raise ValueError("`names`: one name is given twice")
+        return model_of(dict(zip(names, quantities)), title=title)
+
+    def run(self, *arguments: Any, names: Sequence[str] | None = None, **options: Any) -> Result:
+        """Evaluate all quantities together, as `Model.run` does."""
+        return self.model(names).run(*arguments, **options)
+
+    def _quantities(self) -> list[Quantity]:
+        return [_quantity(of, "an entry") for of in np.asarray(self, dtype=object).ravel()]
+
+    def _each(self, name: str) -> Any:
+        result = self.run(trials=0)
+        names = {
+            "estimate": "estimate", "u": "standard_uncertainty", "U": "expanded_uncertainty", "dof": "dof",
+        }  # fmt: skip
+        figures = [getattr(of.gum, names[name]) for of in result.values()]
+        return np.array(figures, dtype=float).reshape(self.shape)
+
+    def __repr__(self) -> str:
+        return f"gumption.array({self._written_out(', ')})"
+
+    def __str__(self) -> str:
+        return self._written_out(" ")
+
+    def _written_out(self, separator: str) -> str:
+        plain = np.asarray(self, dtype=object)
+        return np.array2string(plain, separator=separator, formatter={"object": str})
+
+    def __array_function__(self, function: Any, types: Any, arguments: Any, options: Any) -> Any:
+        name = f"{function.__module__}.{function.__name__}"
+        if name in _LINEAR and not options:
+            found = _LINEAR[name](*arguments)
+            return found.view(Quantities) if isinstance(found, np.ndarray) else found
+        if name == "numpy.where" and len(arguments) == 3 and not options:
+            choose = np.frompyfunc(lambda chosen, a, b: np.where(chosen, a, b)[()], 3, 1)
+            return choose(*(np.asarray(value, dtype=object) for value in arguments)).view(Quantities)
+        return super().__array_function__(function, types, arguments, options)
+
+    def __array_wrap__(self, array: Any, context: Any = None, return_scalar: bool = False) -> Any:
+        # the sum of all is a quantity, and no array without axes
+        found = np.asarray(array)
+        return found.flat[0] if found.ndim == 0 else found.view(Quantities)
+
+
+def _quantity(value: Any, name: str) -> Quantity:
+    return value if isinstance(value, Quantity) else as_input(value, name)
+
+
+def array(
+    values: npt.ArrayLike,
+    u: npt.ArrayLike | None = None,
+    unit: str | None = None,
+    *,
+    dof: npt.ArrayLike | None = None,
+    correlation: npt.ArrayLike | None = None,
+    covariance: npt.ArrayLike | None = None,
+    names: Sequence[str] | None = None,
+) -> Quantities:
+    """An array of quantities.
+
+    Parameters
+    ----------
+    values : array_like
+        Estimates, in `unit`; or quantities, which stay what they are, if nothing else is given.
+    u : array_like, optional
+        Standard uncertainties in `unit`: one for each value, or one for all.
+    unit : str, optional
+        The unit of all.
+    dof : array_like, optional
+        Degrees of freedom, one for each value, or one for all.
+    correlation : array_like, optional
+        The correlation matrix of the values in the order of ``ravel()``.
+    covariance : array_like, optional
+        Their covariance matrix in ``unit^2``, in place of `u` and `correlation`.
+    names : sequence of str, optional
+        Names in formulas and budgets.
+
+    Returns
+    -------
+    Quantities
+
+    Examples
+    --------
+    >>> x = gumption.array([1.0, 2.0], 0.1, "V", correlation=[[1, 0.5], [0.5, 1]])
+    >>> print(x.sum())
+    3.00(17) V
+    """
+    found = np.asarray(values)
+    if found.dtype == object:
+        others = (u, unit, dof, correlation, covariance, names)
+        if any(value is not None for value in others):
+            raise TypeError("`values` are quantities, which have their uncertainties and units; give them alone")
+        made = [_quantity(value, "`values`") for value in found.ravel()]
+        return _shaped(made, found.shape)
+    estimates = np.asarray(found, dtype=float)
+    count = estimates.size
+    matrix = None
+    if covariance is not None:
+        if u is not None or correlation is not None:
+            raise TypeError("`covariance` is given in place of `u` and `correlation`; give either")
+        matrix = _square(covariance, count, "covariance")
+        variances = np.diag(matrix)
+        if (variances < 0).any():
+            raise ValueError("`covariance`: a variance is below 0")
+        widths = np.sqrt(variances)
+        scale = np.where(widths > 0, widths, 1.0)
+        matrix = matrix / np.outer(scale, scale)
+    else:
+        if u is None:
+            raise TypeError("`u` or `covariance` is needed")
+        widths = _for_each(u, estimates.shape, "u")
+        if correlation is not None:
+            matrix = _square(correlation, count, "correlation")
+    if names is not None and len(names) != count:
+        raise ValueError(f"`names`: {len(names)} are given for {count} values")
+    freedom = np.full(count, np.inf) if dof is None else _for_each(dof, estimates.shape, "dof")
+    inputs = [
+        normal(
+            float(x), float(width), unit, name=names[place] if names is not None else "",
+            **({"dof": float(freedom[place])} if math.isfinite(freedom[place]) else {}),
+        )
+        for place, (x, width) in enumerate(zip(estimates.ravel(), widths))
+    ]  # fmt: skip
+    return _shaped(inputs if matrix is None else _linked(inputs, matrix), estimates.shape)
+
+
+def correlated(inputs: Sequence[Input], correlation: npt.ArrayLike) -> Quantities:
+    """Inputs with declared correlation coefficients, as new quantities.
+
+    Parameters
+    ----------
+    inputs : sequence of Input
+        The inputs, of any distribution.
+    correlation : array_like
+        Their correlation matrix.
+
+    Examples
+    --------
+    >>> a, b = gumption.correlated([gumption.normal(1, 0.1), gumption.normal(2, 0.1)], [[1, -1], [-1, 1]])
+    >>> (a + b).u
+    0.0
+    """
+    for value in inputs:
+        if not isinstance(value, Input):
+            raise TypeError(f"`inputs`: an input is needed, not a {type(value).__name__}")
+    return _shaped(_linked(inputs, _square(correlation, len(inputs), "correlation")), (len(inputs),))
+
+
+def complex_normal(
+    value: complex,
+    u: Any = None,
+    unit: str | None = None,
+    *,
+    correlation: float | None = None,
+    covariance: npt.ArrayLike | None = None,
+    dof: float | None = None,
+    name: str = "",
+) -> Any:
+    """A complex quantity whose real and imaginary part have a normal distribution.
+
+    Any complex expression is made by ``x + 1j*y`` or ``r*np.exp(1j*phi)`` of real quantities as well.
+
+    Parameters
+    ----------
+    value : complex
+        The estimate.
+    u : float or pair of float, optional
+        The standard uncertainties of the real and the imaginary part, or one for both.
+    unit : str, optional
+        The unit.
+    correlation : float, optional
+        The correlation coefficient of the two parts; 0 unless given.
+    covariance : array_like, optional
+        Their covariance matrix, in place of `u` and `correlation`.
+    dof : float, optional
+        The degrees of freedom.
+    name : str, optional
+        A name; the parts are called ``NAME_re`` and ``NAME_im``.
+
+    Examples
+    --------
+    >>> z = gumption.complex_normal(3 + 4j, 0.1)
+    >>> print(abs(z))
+    5.00(10)
+    """
+    value = complex(value)
+    matrix = None
+    if correlation is not None:
+        matrix = [[1.0, correlation], [correlation, 1.0]]
+    names = [f"{name}_re", f"{name}_im"] if name else None
+    parts = [value.real, value.imag]
+    re, im = array(parts, u, unit, dof=dof, correlation=matrix, covariance=covariance, names=names)
+    return re + 1j * im
+
+
+def _shaped(quantities: Sequence[Quantity], shape: tuple[int, ...]) -> Quantities:
+    made = np.empty(len(quantities), dtype=object)
+    for place, quantity in enumerate(quantities):
+        made[place] = quantity
+    return made.reshape(shape).view(Quantities)
+
+
+def _linked(inputs: Sequence[Input], matrix: Numbers) -> list[Input]:
+    """The inputs with a correlation matrix."""
+    if not np.allclose(np.diag(matrix)[[of.spec.get("distribution") != "constant" for of in inputs]], 1.0):
+        raise ValueError("a correlation matrix has ones on its diagonal")
+    if not np.allclose(matrix, matrix.T, rtol=1e-9, atol=1e-12):
+        raise ValueError("a matrix of correlations or covariances is symmetric")
+    if (abs(matrix) > 1 + 1e-12).any():
+        raise ValueError("a correlation coefficient is outside -1 to 1")
+    made = [Input(of.spec, of.unit, of.held, parts=of.parts, name=of.name) for of in inputs]
+    for row, of in enumerate(made):
+        for column, other in enumerate(made):
+            r = float(np.clip(matrix[min(row, column), max(row, column)], -1.0, 1.0))
+            if row != column and r != 0.0:
+                of.links[other.identity] = r
+    return made
+
+
+def _square(matrix: npt.ArrayLike, count: int, name: str) -> Numbers:
+    found = np.asarray(matrix, dtype=float)
+    if found.shape != (count, count):
+        raise ValueError(f"`{name}`: a matrix of {count} rows and columns is needed, not of {found.shape}")
+    if not np.isfinite(found).all():
+        raise ValueError(f"`{name}`: a number is not finite")
+    return found
+
+
+def _for_each(values: npt.ArrayLike, shape: tuple[int, ...], name: str) -> Numbers:
+    found = np.asarray(values, dtype=float)
+    try:
+        return np.broadcast_to(found, shape).ravel()
+    except ValueError:
+        raise ValueError(
+            f"`{name}`: one number or an array of the shape {shape} is needed, not of {found.shape}"
+        ) from None
+
+
+# linear algebra
+
+
+def _eliminated(matrix: Any, right: Any) -> tuple[Any, Any]:
+    """The solution of linear equations and the determinant, by Gauss's elimination.
+
+    Pivots are the largest estimates of a column. The result is an expression, so that its
+    derivatives are exact.
+    """
+    a = np.array(matrix, dtype=object)
+    if a.ndim != 2 or a.shape[0] != a.shape[1]:
+        raise np.linalg.LinAlgError(f"a square matrix is needed, not one of {a.shape}")
+    b = np.array(right, dtype=object)
+    if b.shape[0] != a.shape[0]:
+        raise np.linalg.LinAlgError(f"the right side has {b.shape[0]} rows, the matrix {a.shape[0]}")
+    estimates = np.vectorize(lambda of: of.estimate if isinstance(of, Quantity) else of, otypes=[object])(a)
+    estimates = estimates.astype(complex)
+    determinant: Any = 1
+    for step in range(len(a)):
+        pivot = step + int(np.argmax(abs(estimates[step:, step])))
+        if estimates[pivot, step] == 0:
+            raise np.linalg.LinAlgError("the matrix of the estimates is singular")
+        if pivot != step:
+            for rows in (a, b, estimates):
+                rows[[step, pivot]] = rows[[pivot, step]]
+            determinant = -determinant
+        determinant = determinant * a[step, step]
+        for row in range(step + 1, len(a)):
+            factor = a[row, step] / a[step, step]
+            estimates[row] -= estimates[row, step] / estimates[step, step] * estimates[step]
+            for column in range(step + 1, len(a)):
+                a[row, column] = a[row, column] - factor * a[step, column]
+            b[row] = b[row] - factor * b[step]
+    for step in reversed(range(len(a))):
+        for column in range(step + 1, len(a)):
+            b[step] = b[step] - a[step, column] * b[column]
+        b[step] = b[step] / a[step, step]
+    return b, determinant
+
+
+def _solved(matrix: Any, right: Any) -> Any:
+    return _eliminated(matrix, right)[0]
+
+
+def _inverse(matrix: Any) -> Any:
+    # a sum with a quantity of another unit cannot begin with the number 0
+    size = len(matrix)
+    columns = []
+    for column in range(size):
+        unit = np.zeros(size)
+        unit[column] = 1.0
+        columns.append(_eliminated(matrix, unit)[0])
+    return np.array(columns, dtype=object).T
+
+
+def _determinant(matrix: Any) -> Any:
+    return _eliminated(matrix, np.zeros(len(matrix)))[1]
+
+
+_LINEAR: dict[str, Callable[..., Any]] = {"numpy.linalg.inv": _inverse, "numpy.linalg.solve": _solved, "numpy.linalg.det": _determinant}

@@ -1,0 +1,601 @@
+"""Quantities as numbers: expressions of inputs and of outputs of results.
+
+An operator or a function of NumPy on a quantity makes an `Expression`. It computes nothing: it is a
+formula over its inputs, and its figures come from the model of this formula. So a quantity that occurs
+twice is one quantity, and ``x - x`` is 0 with a standard uncertainty of 0.
+"""
+
+from __future__ import annotations
+
+import itertools
+import math
+from collections.abc import Callable, Iterable, Iterator, Mapping
+from functools import lru_cache
+from typing import TYPE_CHECKING, Any, NamedTuple, NoReturn
+
+import numpy as np
+import numpy.typing as npt
+
+from gumption import _gumption
+from gumption._formula import Term, Writer, angle_of, binary, is_about
+
+if TYPE_CHECKING:
+    from gumption._model import Model
+    from gumption._result import Budget, Output, Result
+
+#: What a function makes of the unit of its argument.
+_OF_NUMBERS = {
+    "exp": "1", "expm1": "1", "ln": "1", "log10": "1", "log1p": "1",
+    "sinh": "1", "cosh": "1", "tanh": "1", "asinh": "1", "acosh": "1", "atanh": "1",
+    "sin": "1", "cos": "1", "tan": "1", "asin": "rad", "acos": "rad", "atan": "rad",
+    "floor": "1", "ceil": "1",
+}  # fmt: skip
+
+_ROOTS = {"sqrt": 2, "cbrt": 3}
+
+#: Functions whose arguments have one dimension, and whose result has it as well.
+_OF_ONE_DIMENSION = {"min", "max", "hypot", "mod"}
+
+#: Parts of a complex number, which are real.
+_PARTS = {"abs", "arg", "re", "im"}
+
+
+@lru_cache(maxsize=4096)
+def _fit(first: str, second: str) -> bool:
+    return _gumption.units_fit(first, second)
+
+
+@lru_cache(maxsize=4096)
+def _has_zero(unit: str) -> bool:
+    return _gumption.unit_within(unit)[1]
+
+
+@lru_cache(maxsize=4096)
+def _is_angle(unit: str) -> bool:
+    return _gumption.unit_within(unit)[2]
+
+
+@lru_cache(maxsize=4096)
+def _product(*parts: tuple[str, int, int]) -> str:
+    return _gumption.unit_product(list(parts))
+
+
+class ComplexUncertainty(NamedTuple):
+    """The standard uncertainties of the parts of a complex quantity."""
+
+    real: float
+    imag: float
+
+
+class Quantity(Term):
+    """A quantity: an input, an output of a result, or an expression of such.
+
+    Operators and functions of NumPy make an `Expression`. Numbers in it are exact and have the unit 1.
+    Dimensions are checked at each operation, and angles are converted to radians.
+
+    Figures by the law of propagation (JCGM 100) are attributes: `estimate`, `u`, `U`, `k`, `dof` and
+    `budget`. `run` gives the Monte Carlo figures (JCGM 101) beside them.
+    """
+
+    __slots__ = ()
+
+    @property
+    def _unit(self) -> str:
+        """Its unit, which is 1 where none was given."""
+        raise NotImplementedError
+
+    @property
+    def _is_complex(self) -> bool:
+        return False
+
+    @property
+    def _is_exact(self) -> bool:
+        """Whether no quantity in it is uncertain."""
+        return False
+
+    def _leaves(self) -> Iterator[Quantity]:
+        """The inputs and outputs in it, in the order of their first use, some of them more than once."""
+        yield self
+
+    # terms
+
+    def _made(self, symbol: str, operands: tuple[Term, ...]) -> Quantity:
+        given: list[Quantity] = []
+        for operand in operands:
+            if not isinstance(operand, Quantity):
+                raise TypeError(
+                    "a model function has its quantities as arguments; make the quantity from outside an argument"
+                )
+            given.append(operand)
+        unit = _unit_of(symbol, given)
+        kind = Comparison if symbol in ("<", "<=", ">", ">=", "==", "!=") else Expression
+        return kind(symbol, tuple(given), unit)
+
+    def _written(self, text: str, value: complex) -> Quantity:
+        return Expression(text, (), "1", value)
+
+    def _foreign(self, what: str) -> NoReturn:
+        raise TypeError(what)
+
+    @property
+    def angle(self) -> float | None:
+        return 1.0 if _is_angle(self._unit) else None
+
+    def _shown(self) -> str:
+        names, _ = _named([self], set())
+        text = Writer([self], (), _name_by(names)).whole(self)
+        return text if len(text) <= 60 else f"{text[:57]}..."
+
+    def _part(self, name: str) -> Any:
+        return self if name in ("re", "conj") and not self._is_complex else super()._part(name)
+
+    # figures
+
+    def model(self, name: str = "y", *, title: str | None = None) -> Model:
+        """The model of which this quantity is the output.
+
+        Parameters
+        ----------
+        name : str, default "y"
+            The name of the output.
+        title : str, optional
+            The title of its pages; the formula unless given.
+        """
+        return model_of({name: self}, title=title)
+
+    def run(self, *arguments: Any, name: str = "y", **options: Any) -> Result:
+        """Evaluate by the law of propagation and by Monte Carlo, as `Model.run` does.
+
+        Parameters
+        ----------
+        *arguments, **options
+            As of `Model.run`.
+        name : str, default "y"
+            The name of the output.
+        """
+        return self.model(name).run(*arguments, **options)
+
+    def _evaluated(self) -> Output:
+        return self.run(trials=0)["y"]
+
+    def _figure(self, name: str) -> float:
+        return float(getattr(self._evaluated().gum, name))
+
+    def _parts(self) -> tuple[Result, Output, Output]:
+        """The real and imaginary parts of a complex quantity, evaluated together."""
+        result = model_of({"re": self.real, "im": self.imag}).run(trials=0)
+        return result, result["re"], result["im"]
+
+    @property
+    def estimate(self) -> Any:
+        """The estimate; of a complex quantity a complex number."""
+        if self._is_complex:
+            _, re, im = self._parts()
+            return complex(float(re.gum.estimate), float(im.gum.estimate))
+        return self._figure("estimate")
+
+    @property
+    def u(self) -> Any:
+        """The standard uncertainty; of a complex quantity those of its parts."""
+        if self._is_complex:
+            _, re, im = self._parts()
+            return ComplexUncertainty(
+                float(re.gum.standard_uncertainty), float(im.gum.standard_uncertainty)
+            )
+        return self._figure("standard_uncertainty")
+
+    @property
+    def covariance(self) -> npt.NDArray[np.float64]:
+        """Of a complex quantity the covariance matrix of its real and imaginary part; else its variance."""
+        if not self._is_complex:
+            return np.array([[self.u**2]])
+        result, re, im = self._parts()
+        u = np.array([re.gum.standard_uncertainty, im.gum.standard_uncertainty], dtype=float)
+        matrix: npt.NDArray[np.float64] = result.correlations() * np.outer(u, u)
+        return matrix
+
+    @property
+    def dof(self) -> float:
+        """The effective degrees of freedom (JCGM 100, G.4)."""
+        self._refuse_complex("dof")
+        return self._figure("dof")
+
+    @property
+    def k(self) -> float:
+        """The coverage factor for 95 %; `run` takes another coverage probability."""
+        self._refuse_complex("k")
+        return self._figure("coverage_factor")
+
+    @property
+    def U(self) -> float:  # noqa: N802 - the symbol of the GUM
+        """The expanded uncertainty for 95 %; `run` takes another coverage probability."""
+        self._refuse_complex("U")
+        return self._figure("expanded_uncertainty")
+
+    @property
+    def budget(self) -> Budget:
+        """The budget."""
+        self._refuse_complex("budget")
+        return self._evaluated().budget
+
+    def _refuse_complex(self, what: str) -> None:
+        if self._is_complex:
+            raise TypeError(f"`{what}` is of a real quantity; take `.real`, `.imag`, `abs(...)` or `np.angle(...)`")
+
+    def to(self, unit: str) -> Expression:
+        """The same quantity in another unit.
+
+        Raises
+        ------
+        ModelError
+            If the unit has another dimension, or counts from another zero.
+        """
+        own = self._unit
+        if not _fit(own, unit):
+            _gumption.unit_scale(unit)
+            raise _gumption.ModelError(f"a quantity in {own} is none in {unit}")
+        if _has_zero(own) != _has_zero(unit):
+            raise _gumption.ModelError(
+                f"a quantity in {own} can be in {unit} a value from its zero or a difference; give the inputs in {unit}"
+            )
+        return Expression("", (self,), unit)
+
+    # what Python asks of a number
+
+    def _as_number(self, what: str) -> float:
+        if not self._is_exact:
+            raise TypeError(
+                f"{what} of a quantity that has an uncertainty: `.estimate` is its estimate, `.u` its standard "
+                "uncertainty; functions are those of numpy (`np.sin` in place of `math.sin`)"
+            )
+        self._refuse_complex(what)
+        return float(self.estimate)
+
+    def __float__(self) -> float:
+        return self._as_number("float()")
+
+    def __int__(self) -> int:
+        return int(self._as_number("int()"))
+
+    def __complex__(self) -> complex:
+        if self._is_exact and self._is_complex:
+            return complex(self.estimate)
+        return complex(self._as_number("complex()"))
+
+    def __round__(self, digits: int | None = None) -> float:
+        return round(self._as_number("round()"), digits)
+
+    def __bool__(self) -> bool:
+        return self._as_number("whether something is 0,") != 0.0
+
+    def __eq__(self, other: object) -> Any:
+        return binary("==", self, other)
+
+    def __ne__(self, other: object) -> Any:
+        return binary("!=", self, other)
+
+    # a quantity is a key by what it is, and not by its value
+    def __hash__(self) -> int:
+        return id(self)
+
+    def __str__(self) -> str:
+        unit = "" if self._unit == "1" else f" {self._unit}"
+        if self._is_complex:
+            y, u = self.estimate, self.u
+            re, im = _shorthand(y.real, u.real), _shorthand(y.imag, u.imag)
+            return f"({re}{'' if im.startswith('-') else '+'}{im}j){unit}"
+        return f"{_shorthand(self.estimate, self.u)}{unit}"
+
+    def __format__(self, form: str) -> str:
+        if form:
+            raise TypeError(
+                f"a quantity has no format `{form}`: `{{x.estimate:{form}}}` and `{{x.u:{form}}}` write out its figures"
+            )
+        return str(self)
+
+
+class Expression(Quantity):
+    """A formula of quantities, with its unit; operators and functions of NumPy make it.
+
+    Its unit follows from those of its operands: that of a sum is the unit of the first summand with one,
+    and those of products, powers and roots are combined. `to` gives it another one.
+    """
+
+    __slots__ = ("_angle", "_done", "_of_complex", "_of_exact", "unit")
+
+    def __init__(
+        self,
+        symbol: str,
+        operands: tuple[Quantity, ...],
+        unit: str,
+        literal: complex | None = None,
+    ) -> None:
+        super().__init__(symbol, operands, literal)
+        self.unit = unit
+        self._done: Output | None = None
+        self._of_complex = (
+            literal is not None and isinstance(literal, complex)
+            if not operands
+            else symbol not in _PARTS and any(operand._is_complex for operand in operands)
+        )
+        self._of_exact = all(operand._is_exact for operand in operands)
+        self._angle = angle = angle_of(symbol, operands) if operands else None
+        for factor, what in ((math.pi / 180, "to"), (180 / math.pi, "from")):
+            if angle is not None and is_about(angle, factor):
+                raise _gumption.ModelError(
+                    f"`{self._shown()}` converts an angle {what} radians, but expressions compute with angles in "
+                    "radians already, whatever their unit; leave the conversion out, and choose the unit of the "
+                    "result by `.to(...)`"
+                )
+
+    @property
+    def angle(self) -> float | None:
+        return self._angle
+
+    @property
+    def _unit(self) -> str:
+        return self.unit
+
+    @property
+    def _is_complex(self) -> bool:
+        return self._of_complex
+
+    @property
+    def _is_exact(self) -> bool:
+        return self._of_exact
+
+    def _leaves(self) -> Iterator[Quantity]:
+        seen: set[int] = set()
+        left: list[Term] = [self]
+        found: list[Quantity] = []
+        while left:
+            one = left.pop()
+            if one.number in seen:
+                continue
+            seen.add(one.number)
+            if isinstance(one, Expression):
+                left.extend(reversed(one.operands))
+            else:
+                assert isinstance(one, Quantity)
+                found.append(one)
+        yield from found
+
+    def _evaluated(self) -> Output:
+        if self._done is None:
+            self._done = super()._evaluated()
+        return self._done
+
+    def __repr__(self) -> str:
+        return f"<gumption.{type(self).__name__} {self._shown()} = {self}>"
+
+    def __reduce__(self) -> Any:
+        return type(self), (self.symbol, self.operands, self.unit, self.literal)
+
+
+class Comparison(Expression):
+    """A comparison of quantities: 1 where it holds, else 0.
+
+    It is no truth value, unless what is compared is known exactly or is one quantity. It has a
+    probability, and ``np.where`` takes it as the condition of a choice.
+    """
+
+    __slots__ = ()
+
+    def probability(self, trials: int | None = None, seed: int | None = None) -> float:
+        """The probability that it holds, by Monte Carlo."""
+        return float(self.run(trials=trials, seed=seed)["y"].monte_carlo.estimate)
+
+    def __bool__(self) -> bool:
+        first, second = self.operands
+        assert isinstance(first, Quantity) and isinstance(second, Quantity)
+        difference = first - second
+        if difference._is_complex:
+            known = difference.u == (0.0, 0.0)
+        else:
+            known = difference._is_exact or difference.u == 0.0
+        if known:
+            value = difference.estimate
+            if isinstance(value, complex):
+                return (value == 0) == (self.symbol == "==")
+            return bool(_COMPARED[self.symbol](value, 0.0))
+        raise TypeError(
+            f"`{self._shown()}` is neither true nor false, as quantities in it are uncertain: `.probability()` of the "
+            "comparison is the probability that it holds, `.estimate` of both sides compares the estimates, and "
+            "`np.where(...)` chooses in each trial"
+        )
+
+    def __repr__(self) -> str:
+        return f"<gumption.Comparison {self._shown()}>"
+
+    __str__ = __repr__
+
+
+_COMPARED = {
+    "<": float.__lt__, "<=": float.__le__, ">": float.__gt__, ">=": float.__ge__,
+    "==": float.__eq__, "!=": float.__ne__,
+}  # fmt: skip
+
+
+def _shorthand(estimate: float, u: float) -> str:
+    """An estimate with its standard uncertainty in parentheses (JCGM 100, 7.2.2)."""
+    if not (u > 0 and math.isfinite(u) and math.isfinite(estimate)):
+        return f"{estimate:.7g}"
+    y, digits = _gumption.rounded(estimate, u)
+    if "e" in y or "e" in digits:
+        return f"({y} +/- {digits})"
+    # with a point in it the uncertainty is written as it is
+    whole = digits.replace(".", "").lstrip("0")
+    return f"{y}({digits if u >= 1 else whole})"
+
+
+def _unit_of(symbol: str, operands: list[Quantity]) -> str:
+    """The unit of the result of an operation, whose dimensions are checked."""
+    units = [operand._unit for operand in operands]
+    if symbol in _OF_NUMBERS:
+        _check_number(symbol, units[0])
+        return _OF_NUMBERS[symbol]
+    if symbol == "atan2":
+        _check_same(symbol, operands, units)
+        return "rad"
+    if symbol == "arg":
+        return "rad"
+    if symbol in _ROOTS:
+        return _product((units[0], 1, _ROOTS[symbol]))
+    if symbol == "*":
+        return _product((units[0], 1, 1), (units[1], 1, 1))
+    if symbol == "/":
+        return _product((units[0], 1, 1), (units[1], -1, 1))
+    if symbol == "^":
+        return _power(units, operands[1])
+    if symbol == "if":
+        _check_same(symbol, operands[1:], units[1:])
+        return _first(operands[1:], units[1:])
+    if len(operands) == 1:
+        return units[0]
+    _check_same(symbol, operands, units)
+    if symbol in ("<", "<=", ">", ">=", "==", "!="):
+        return "1"
+    zeros = [unit for unit in units if _has_zero(unit)]
+    if symbol == "-" and len(zeros) == 2:
+        return _gumption.unit_of_differences(units[0])
+    if symbol in "+-" and zeros:
+        return zeros[0]
+    return _first(operands, units)
+
+
+def _first(operands: list[Quantity], units: list[str]) -> str:
+    """The unit of the first of several quantities of one dimension that is not a plain number."""
+    return next((unit for of, unit in zip(operands, units) if of.literal is None), units[0])
+
+
+def _power(units: list[str], exponent: Quantity) -> str:
+    if units[0] == "1":
+        return "1"
+    if not isinstance(exponent.literal, float):
+        if _fit(units[0], "1"):
+            return "1"
+        raise _gumption.ModelError(
+            f"`{exponent._shown()}` is the exponent of a quantity in {units[0]}; it has to be a number that is known exactly"
+        )
+    numerator, denominator = exponent.literal.as_integer_ratio()
+    if exponent.operands and exponent.symbol == "/":
+        numerator, denominator = (int(part.literal) for part in exponent.operands)
+    if max(abs(numerator), denominator) > 1000:
+        raise _gumption.ModelError(
+            f"a quantity in {units[0]} to the power {exponent.literal} has no unit; exponents are ratios of small integers"
+        )
+    return _product((units[0], numerator, denominator))
+
+
+def _check_number(symbol: str, unit: str) -> None:
+    if not _fit(unit, "1"):
+        raise _gumption.ModelError(
+            f"`{symbol}` takes a plain number{' or an angle' if symbol in ('sin', 'cos', 'tan') else ''}, and is given a "
+            f"quantity in {unit}; divide it by one of its dimension, such as `gumption.constant(1, \"{unit}\")`"
+        )
+
+
+def _check_same(symbol: str, operands: Iterable[Quantity], units: list[str]) -> None:
+    for operand, unit in zip(operands, units):
+        if not _fit(units[0], unit):
+            number = next((of for of in operands if of.literal is not None), None)
+            what = {"+": "added", "-": "subtracted", "if": "alternatives"}.get(symbol, "compared")
+            hint = ""
+            if number is not None:
+                other = next(unit for of, unit in zip(operands, units) if of.literal is None)
+                hint = f"; a number is in the unit 1, `gumption.constant({number.literal:g}, \"{other}\")` has one"
+            raise _gumption.ModelError(f"quantities in {units[0]} and {unit} cannot be {what}{hint}")
+
+
+def _named(
+    quantities: Iterable[Quantity], used: set[str]
+) -> tuple[dict[object, str], dict[str, Quantity]]:
+    """Names of the inputs and outputs in quantities by their identities, and these by their names."""
+    from gumption._joint import identity_of
+
+    names: dict[object, str] = {}
+    leaves: dict[str, Quantity] = {}
+    for quantity in quantities:
+        for leaf in quantity._leaves():
+            identity = identity_of(leaf)
+            if identity not in names:
+                names[identity] = name = _free(leaf.symbol, used)
+                leaves[name] = leaf
+    return names, leaves
+
+
+def _free(wanted: str, used: set[str]) -> str:
+    """A name that nothing has: the one that is wanted, or a number behind it; `i` is the imaginary unit."""
+    numbers = itertools.count(2 if wanted else 1)
+    name = wanted
+    while name in ("", "i") or name in used:
+        name = f"{wanted}_{next(numbers)}" if wanted else f"x{next(numbers)}"
+    used.add(name)
+    return name
+
+
+def _name_by(names: Mapping[object, str]) -> Callable[[Term], str]:
+    from gumption._joint import identity_of
+
+    return lambda term: term.symbol if isinstance(term, Expression) else names[identity_of(term)]
+
+
+def formulas(
+    quantities: Mapping[str, Quantity], taken: Iterable[str]
+) -> tuple[dict[str, str], dict[str, Quantity]]:
+    """Quantities as formulas, and the inputs in these by names that nothing else has.
+
+    Parameters
+    ----------
+    quantities : mapping of str to Quantity
+        What is written out, by its names.
+    taken : iterable of str
+        Further names that others have.
+    """
+    used = {*taken, *quantities}
+    names, leaves = _named(quantities.values(), used)
+    writer = Writer(quantities.values(), used, _name_by(names))
+    own = {name: writer.whole(quantity) for name, quantity in quantities.items()}
+    return {**writer.equations, **own}, leaves
+
+
+def model_of(quantities: Mapping[str, Any], *, title: str | None = None) -> Model:
+    """One model of several quantities, so that they are evaluated together.
+
+    Parameters
+    ----------
+    quantities : mapping of str to Quantity
+        The outputs by name.
+    title : str, optional
+        The title of its pages.
+
+    Returns
+    -------
+    Model
+
+    Examples
+    --------
+    >>> v, i = gumption.normal(5, 0.01, "V"), gumption.normal(0.02, 1e-5, "A")
+    >>> r = gumption.model_of({"R": v/i, "P": v*i}).run(trials=0)
+    >>> round(r.correlations()[0, 1], 2)
+    0.88
+    """
+    from gumption._model import Model, take_inputs, written
+
+    if not quantities:
+        raise ValueError("`quantities` names no output")
+    for name, quantity in quantities.items():
+        if not isinstance(quantity, Quantity):
+            raise TypeError(f"`{name}`: a quantity is needed, not a {type(quantity).__name__}")
+    equations, leaves = formulas(quantities, ())
+    if title is None:
+        title = "; ".join(f"{name} = {quantity._shown()}" for name, quantity in quantities.items())
+    outputs: dict[str, Any] = {}
+    for name, quantity in quantities.items():
+        outputs[name] = {"unit": quantity._unit, **({"complex": "re-im"} if quantity._is_complex else {})}
+    file: dict[str, Any] = {
+        "format": 1, "title": title, "inputs": dict.fromkeys(leaves), "equations": equations, "outputs": outputs,
+    }  # fmt: skip
+    held, known = take_inputs(file, leaves, dict.fromkeys(leaves, "1"), {})
+    rust = _gumption.Model("<expression>", written(file), "", list(held.items()))
+    return Model._of(rust, known=known)
