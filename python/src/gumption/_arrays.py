@@ -2,22 +2,26 @@
 
 from __future__ import annotations
 
-import math
 from collections.abc import Callable, Sequence
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
 import numpy.typing as npt
 
+from gumption._formula import call
 from gumption._quantities import as_input
 from gumption._quantity import Quantity, model_of
-from gumption._shapes import Input, normal
+from gumption._shapes import Input
 
 if TYPE_CHECKING:
     from gumption._model import Model
     from gumption._result import Result
 
 Numbers = npt.NDArray[np.float64]
+
+
+#: So many quantities of an array are evaluated at once.
+_TOGETHER = 64
 
 
 class Quantities(np.ndarray[Any, np.dtype[Any]]):
@@ -39,7 +43,7 @@ class Quantities(np.ndarray[Any, np.dtype[Any]]):
 
     @property
     def U(self) -> Any:  # noqa: N802 - the symbol of the GUM
-        """The expanded uncertainties for 95 %."""
+        """The expanded uncertainties for 95.45 %, as `Quantity.U`."""
         return self._each("U")
 
     @property
@@ -95,11 +99,16 @@ class Quantities(np.ndarray[Any, np.dtype[Any]]):
         return [_quantity(of, "an entry") for of in np.asarray(self, dtype=object).ravel()]
 
     def _each(self, name: str) -> Any:
-        result = self.run(trials=0)
         names = {
             "estimate": "estimate", "u": "standard_uncertainty", "U": "expanded_uncertainty", "dof": "dof",
         }  # fmt: skip
-        figures = [getattr(of.gum, names[name]) for of in result.values()]
+        quantities = self._quantities()
+        figures: list[float] = []
+        # together they would have a coefficient for each input of any of them
+        for start in range(0, len(quantities), _TOGETHER):
+            part = quantities[start : start + _TOGETHER]
+            result = model_of({f"y{place}": of for place, of in enumerate(part, 1)}).run(trials=0)
+            figures += [getattr(of.gum, names[name]) for of in result.values()]
         return np.array(figures, dtype=float).reshape(self.shape)
 
     def __repr__(self) -> str:
@@ -118,14 +127,21 @@ class Quantities(np.ndarray[Any, np.dtype[Any]]):
             found = _LINEAR[name](*arguments)
             return found.view(Quantities) if isinstance(found, np.ndarray) else found
         if name == "numpy.where" and len(arguments) == 3 and not options:
-            choose = np.frompyfunc(lambda chosen, a, b: np.where(chosen, a, b)[()], 3, 1)
+            choose = np.frompyfunc(_chosen, 3, 1)
             return choose(*(np.asarray(value, dtype=object) for value in arguments)).view(Quantities)
-        return super().__array_function__(function, types, arguments, options)
+        made = super().__array_function__(function, types, arguments, options)
+        return made.view(Quantities) if isinstance(made, np.ndarray) and made.dtype == object else made
 
     def __array_wrap__(self, array: Any, context: Any = None, return_scalar: bool = False) -> Any:
         # the sum of all is a quantity, and no array without axes
         found = np.asarray(array)
         return found.flat[0] if found.ndim == 0 else found.view(Quantities)
+
+
+def _chosen(condition: Any, first: Any, second: Any) -> Any:
+    if isinstance(condition, Quantity):
+        return call("if", [condition, first, second])
+    return first if condition else second
 
 
 def _quantity(value: Any, name: str) -> Quantity:
@@ -200,13 +216,10 @@ def array(
     if names is not None and len(names) != count:
         raise ValueError(f"`names`: {len(names)} are given for {count} values")
     freedom = np.full(count, np.inf) if dof is None else _for_each(dof, estimates.shape, "dof")
-    inputs = [
-        normal(
-            float(x), float(width), unit, name=names[place] if names is not None else "",
-            **({"dof": float(freedom[place])} if math.isfinite(freedom[place]) else {}),
-        )
-        for place, (x, width) in enumerate(zip(estimates.ravel(), widths))
-    ]  # fmt: skip
+    inputs = []
+    for place, (x, width) in enumerate(zip(estimates.ravel(), widths)):
+        own = as_input((x, width, freedom[place]), "`values`")
+        inputs.append(Input(own.spec, unit, name=names[place] if names is not None else ""))
     return _shaped(inputs if matrix is None else _linked(inputs, matrix), estimates.shape)
 
 

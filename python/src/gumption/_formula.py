@@ -127,6 +127,10 @@ class Term:
         """Refuses an operation that no formula can express."""
         raise NotImplementedError
 
+    def _array(self, found: Any) -> Any:
+        """An array of terms of its kind."""
+        return found
+
     @property
     def angle(self) -> float | None:
         """Of an angle in radians 1, of one that was multiplied by numbers their product; else `None`."""
@@ -203,7 +207,7 @@ class Term:
             self._foreign(f"no formula does numpy.{ufunc.__name__}.{method} with these options")
         if any(isinstance(value, np.ndarray) and value.ndim for value in inputs):
             each = np.frompyfunc(lambda *values: ufunc_of(ufunc, values), len(inputs), 1)
-            return each(*(_boxed(value) for value in inputs))
+            return self._array(each(*(_boxed(value) for value in inputs)))
         return ufunc_of(ufunc, inputs)
 
     def __array_function__(

@@ -98,14 +98,17 @@ class Joint:
     ) -> Joint | None:
         """The combined models of values that share quantities with other values.
 
-        ``equations`` then contains those values under their own names. `None` if nothing is shared.
+        So are results of runs without trials, which have no distribution to draw from. ``equations`` then
+        contains those values under their own names. `None` if there are none.
 
         Raises
         ------
         ModelError
             If quantities are shared but the models cannot be evaluated together.
         """
-        together = _sharing(known)
+        sharing = _sharing(known)
+        untried = [name for name, value in known.items() if is_output(value) and not value._result.has_trials]
+        together = list(dict.fromkeys([*sharing, *untried]))
         if not together:
             return None
         joint = cls([*known, *taken], check_units)
@@ -123,9 +126,14 @@ class Joint:
                     joint.equations[name] = joint._output(value)
                     joint.expanded.append(name)
         except _NotTogether as reason:
+            if not sharing:
+                raise _gumption.ModelError(
+                    f"{listed(untried)}: a run without trials has no distribution, so its model has to be "
+                    f"evaluated again, but {reason}; make the run with trials"
+                ) from None
             raise _gumption.ModelError(
-                f"{', '.join(f'`{name}`' for name in together)} go back to the same quantity, so they have "
-                f"to be evaluated together, but {reason}; write one function of what they go back to"
+                f"{listed(sharing)} go back to the same quantity, so they have to be evaluated together, but "
+                f"{reason}; write one function of what they go back to"
             ) from None
         return joint
 
@@ -208,6 +216,11 @@ class Joint:
         return names
 
 
+def listed(names: Iterable[str]) -> str:
+    """Names for a message."""
+    return ", ".join(f"`{name}`" for name in names)
+
+
 class _NotTogether(Exception):
     """Why models cannot be evaluated together."""
 
@@ -240,7 +253,7 @@ def _sharing(known: Mapping[str, Any]) -> list[str]:
         parts = [name for name in together if isinstance(known[name], Input) and known[name].parts]
         if parts:
             raise _gumption.ModelError(
-                f"{', '.join(f'`{name}`' for name in parts)} have one quantity among their components; make "
+                f"{listed(parts)} have one quantity among their components; make "
                 "it an input of its own"
             )
         return []

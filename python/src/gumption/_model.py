@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, Any
 
 from gumption import _gumption
 from gumption._frames import condition_file, readings_file
-from gumption._joint import Joint, identity_of
+from gumption._joint import Joint, identity_of, listed
 from gumption._quantity import Expression, formulas
 from gumption._quantities import as_input, as_known, shared, unit_of
 from gumption._result import Result
@@ -434,7 +434,9 @@ def take_inputs(
     # of what was there before the file tells already
     links += [link for link in shared(known) if not {*link[:2]} <= kept.keys()]
     if links:
-        file["correlations"] = [list(link) for link in links]
+        # what a model of a result says already is not said again
+        once = {(*sorted(link[:2]), link[2]): list(link) for link in links}
+        file["correlations"] = list(once.values())
     return held, known
 
 
@@ -446,9 +448,8 @@ def _insert_expressions(
     if not expressions:
         return given, units
     if not file.get("check_units", True):
-        names = ", ".join(f"`{name}`" for name in expressions)
         raise _gumption.ModelError(
-            f"{names}: an expression computes in coherent units, and the model with the numbers of its declared "
+            f"{listed(expressions)}: an expression computes in coherent units, and the model with the numbers of its declared "
             "units; give an output of the expression's run"
         )
     taken = [name for key in ("inputs", "equations", "outputs", "conditions") for name in file.get(key, ())]

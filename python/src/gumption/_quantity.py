@@ -117,6 +117,11 @@ class Quantity(Term):
     def _foreign(self, what: str) -> NoReturn:
         raise TypeError(what)
 
+    def _array(self, found: Any) -> Any:
+        from gumption._arrays import Quantities
+
+        return found.view(Quantities)
+
     @property
     def angle(self) -> float | None:
         return 1.0 if _is_angle(self._unit) else None
@@ -202,13 +207,13 @@ class Quantity(Term):
 
     @property
     def k(self) -> float:
-        """The coverage factor for 95 %; `run` takes another coverage probability."""
+        """The coverage factor for 95.45 %, 2 for infinite degrees of freedom; `run` takes another one."""
         self._refuse_complex("k")
         return self._figure("coverage_factor")
 
     @property
     def U(self) -> float:  # noqa: N802 - the symbol of the GUM
-        """The expanded uncertainty for 95 %; `run` takes another coverage probability."""
+        """The expanded uncertainty for 95.45 %, 2 u for infinite degrees of freedom; `run` takes another k or p."""
         self._refuse_complex("U")
         return self._figure("expanded_uncertainty")
 

@@ -366,6 +366,12 @@ class Result(Mapping[str, Output]):
         return self._run.seed
 
     @property
+    def has_trials(self) -> bool:
+        """Whether trials were made, and not the law of propagation alone."""
+        first, _ = self._run.outputs[0]
+        return bool(np.isfinite(self._run.column(first, "monte_carlo.trials")).any())
+
+    @property
     def coverage_probability(self) -> float:
         """The coverage probability."""
         return self._run.coverage_probability
