@@ -138,8 +138,7 @@ class Term:
 
     def _shown(self) -> str:
         """Its formula, cut where it is long."""
-        text = Writer([self], ()).whole(self)
-        return text if len(text) <= 60 else f"{text[:57]}..."
+        return cut(Writer([self], ()).whole(self))
 
     # operators
 
@@ -459,6 +458,11 @@ class Writer:
         right = within(parts[1], binding if symbol == "^" else binding + 1)
         space = " " if binding <= _SUM else ""
         return f"{left}{space}{symbol}{space}{right}", binding, depth
+
+
+def cut(formula: str) -> str:
+    """The beginning of a formula, as messages and titles have it."""
+    return formula if len(formula) <= 60 else f"{formula[:57]}..."
 
 
 _COMPOSED: dict[str, Callable[..., Any]] = {

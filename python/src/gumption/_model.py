@@ -463,8 +463,18 @@ def _insert_expressions(
 
 
 def written(file: Mapping[str, Any]) -> str:
-    """The text of a model file."""
-    return json.dumps(file, indent=1, ensure_ascii=False, allow_nan=False)
+    """The text of a model file, of a line for each quantity."""
+
+    def text(value: Any) -> str:
+        return json.dumps(value, ensure_ascii=False, allow_nan=False)
+
+    def member(key: str, value: Any) -> str:
+        if not isinstance(value, Mapping) or not value:
+            return f" {text(key)}: {text(value)}"
+        lines = ",\n".join(f"  {text(name)}: {text(own)}" for name, own in value.items())
+        return f" {text(key)}: {{\n{lines}\n }}"
+
+    return "{\n" + ",\n".join(member(key, value) for key, value in file.items()) + "\n}"
 
 
 def load(

@@ -17,7 +17,7 @@ import numpy as np
 import numpy.typing as npt
 
 from gumption import _gumption
-from gumption._formula import Term, Writer, angle_of, binary, is_about
+from gumption._formula import Term, Writer, angle_of, binary, cut, is_about
 
 if TYPE_CHECKING:
     from gumption._model import Model
@@ -128,8 +128,7 @@ class Quantity(Term):
 
     def _shown(self) -> str:
         names, _ = _named([self], set())
-        text = Writer([self], (), _name_by(names)).whole(self)
-        return text if len(text) <= 60 else f"{text[:57]}..."
+        return cut(Writer([self], (), _name_by(names)).whole(self))
 
     def _part(self, name: str) -> Any:
         return self if name in ("re", "conj") and not self._is_complex else super()._part(name)
@@ -594,7 +593,7 @@ def model_of(quantities: Mapping[str, Any], *, title: str | None = None) -> Mode
             raise TypeError(f"`{name}`: a quantity is needed, not a {type(quantity).__name__}")
     equations, leaves = formulas(quantities, ())
     if title is None:
-        title = "; ".join(f"{name} = {quantity._shown()}" for name, quantity in quantities.items())
+        title = cut("; ".join(f"{name} = {equations[name]}" for name in quantities))
     outputs: dict[str, Any] = {}
     for name, quantity in quantities.items():
         outputs[name] = {"unit": quantity._unit, **({"complex": "re-im"} if quantity._is_complex else {})}
