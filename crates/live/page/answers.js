@@ -31,7 +31,8 @@ export class Answers {
 
   /** Shows an answer that somebody else has asked for. */
   given(request, found) {
-    if (this.isAsking || this.wanted) return;
+    // what is asked for is about an older text
+    if (this.isAsking || this.wanted) { this.ask(request); return; }
     this.shown.answer(found, request);
     this.#rest(request, found);
   }

@@ -10,7 +10,6 @@ const PARTY = ["name", "street", "street_number", "post_code", "city", "country"
 const PLACES = ["laboratory", "customer", "laboratoryBranch", "customerBranch", "other"];
 const TEXTS = ["environment", "method", "traceability"];
 const COVERAGE = ["coverage_factor", "coverage_probability"];
-const WAIT = 40;
 
 const isObject = value => typeof value === "object" && value !== null && !Array.isArray(value);
 const isDay = text => /^\d{4}-\d\d-\d\d$/.test(text) && !Number.isNaN(Date.parse(text));
@@ -31,11 +30,8 @@ export class CertificateForm extends Fields {
 
   /** Shows what an answer says of the file; `force` also in the field that somebody writes in. */
   show(found, force = false) {
-    clearTimeout(this.later);
     // a text with an error in its brackets has no content: the fields stay as they are
     if (!isObject(found.content)) return;
-    // what was typed meanwhile is not in this answer yet
-    if (this.page.isWorking) { this.later = setTimeout(() => this.show(found, force), WAIT); return; }
     if (force) this.forget();
     this.content = found.content;
     this.models = found.models || {};
@@ -172,6 +168,8 @@ export class CertificateForm extends Fields {
 
   /** What was typed into a field becomes part of the file. */
   typed(field, path, kind) {
+    field.written = field.value;
+    field.writtenKind = null;
     if (kind === "days") return this.#days();
     if (kind === "localized") return this.#localizedTyped(path.slice(0, -1), path[path.length - 1], field.value);
     let text = kind === "text" ? field.value : field.value.trim();

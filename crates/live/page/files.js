@@ -103,19 +103,27 @@ export class Files {
       this.page.document.path = path;
       this.page.document.version = null;
     }
-    if (this.isSaving) return;
-    this.isSaving = true;
+    // one after the other: the version of a file is known when it is written
+    while (this.saving) await this.saving;
+    this.saving = this.#write();
+    const conflict = await this.saving;
+    if (conflict) return this.conflict(conflict);
+    this.state();
+  }
+
+  /** Writes the file; what is on the disk, if somebody else has changed it. */
+  async #write() {
     const { path, text, version } = this.page.document;
     try {
-      this.say("state", words.saving);
+      this.say("state", this.words.saving);
       const saved = await this.page.program.ask("save", { path, text, version });
       this.page.document.version = saved.version;
       this.page.document.saved = text;
-      } catch (error) {
-      if (error.status === 409) { this.isSaving = false; return this.conflict(error.answer); }
+    } catch (error) {
+      if (error.status === 409) return error.answer;
       this.page.failed(error);
-    } finally { this.isSaving = false; }
-    this.state();
+    } finally { this.saving = null; }
+    return null;
   }
 
   async askName() {
@@ -160,7 +168,7 @@ export class Files {
       if (this.page.document.path !== null || this.page.kind === "certificate") { this.page.result.reported = null; this.page.ask(); }
       return;
     }
-    if (version === this.page.document.version || this.isSaving) return;
+    if (version === this.page.document.version || this.saving) return;
     if (version === null) { this.say("state", this.words.gone); return; }
     const found = await this.page.program.ask("open", { path });
     if (found.version === this.page.document.version) return;

@@ -134,6 +134,7 @@ class Page {
     const request = { ...this.#request(), text: base };
     const found = await this.answers.edit(request, edits);
     if (this.document.text !== text) return false;
+    this.isOnItsWay = false;
     this.isGiven = true;
     this.document.set(found.text, kind);
     this.isGiven = false;
@@ -155,6 +156,7 @@ class Page {
     this.isWorking = true;
     while (this.queue.length) {
       const { call, edits, request, kind } = this.queue.shift();
+      this.isOnItsWay = true;
       try {
         if (!call && this.kind === "model" && this.answers.isQuick) {
           if (!await this.#changeAndAnswer(edits, kind)) this.queue.unshift({ edits, kind });
@@ -162,17 +164,22 @@ class Page {
         }
         const { text } = this.document, base = this.#base(kind);
         const made = await this.program.call(call || "edit", { text: base, edits, ...request });
+        this.isOnItsWay = false;
         // somebody may have typed into the text meanwhile; that is not lost
         if (this.document.text === text) {
           this.document.set(made.text, kind);
           this.#typedFrom(base, kind);
         } else this.queue.unshift({ call, edits, request, kind });
       } catch (error) {
+        this.isOnItsWay = false;
         this.unanswered(error);
       }
     }
     this.isWorking = false;
   }
+
+  /** Whether a text has all that was typed and chosen. */
+  #isCurrent(text) { return text === this.document.text && !this.isOnItsWay && this.queue.length === 0; }
 
   /** Whether what was answered last is the text with all changes. */
   get isSettled() { return !this.isWorking && this.answeredText === this.document.text; }
@@ -264,14 +271,16 @@ class Page {
     this.found = found;
     this.answeredText = request.text;
     this.isUnanswered = false;
-    const force = this.force && request.text === this.document.text;
+    // fields hold what is newer than the answer; one about this follows
+    const isCurrent = this.#isCurrent(request.text);
+    const force = this.force && isCurrent;
     if (force) this.force = false;
     this.kind = found.kind;
     const isModel = found.kind === "model";
     this.element("editor-title").textContent = this.words.title_of[found.kind] || this.words.measurement;
     this.element("view-form").disabled = !this.forms[found.kind];
     this.show(this.view);
-    if (found.inputs !== undefined) {
+    if (found.inputs !== undefined && isCurrent) {
       this.equations.show(found, force);
       const title = this.element("title");
       if (document.activeElement !== title || force) title.value = found.title || "";
@@ -280,7 +289,7 @@ class Page {
       model.hidden = !found.model;
       model.replaceChildren(...(found.model ? [`${this.words.model_is} ${found.model}`, ...(found.statement || []).map(([name, formula]) => make("code", {}, `${name} = ${formula}`))] : []));
     }
-    for (const form of this.shownForms) form.show(found, force);
+    if (isCurrent) for (const form of this.shownForms) form.show(found, force);
     this.element("certify").hidden = !isModel || (found.results || []).length === 0;
     this.mistakes.show(found, request);
     if (isModel) this.result.results(found);
@@ -325,7 +334,7 @@ class Page {
       const lines = this.equations.lines().filter(line => !line.isWrong && line.name !== "");
       this.edit([{ path: ["equations"], members: lines.map(line => [line.name, line.formula]) }], "equations");
     });
-    on("equations", "blur", () => this.found && this.equations.show(this.found, this.found.diagnostics.length === 0 && !this.equations.lines().some(line => line.isWrong)));
+    on("equations", "blur", () => this.found && this.isSettled && this.equations.show(this.found, this.found.diagnostics.length === 0 && !this.equations.lines().some(line => line.isWrong)));
     on("source", "input", () => this.document.set(this.source.text, "text"));
     on("add-input", "click", () => this.addInputs([this.#freeName("x")]));
     on("add-correlation", "click", () => {
