@@ -52,10 +52,10 @@ def executed(code: str, names: dict[str, Any]) -> list[Any]:
     statements = ast.parse(code).body
     last = statements[-1] if statements else None
     if isinstance(last, ast.Expr):
-        exec(compile(ast.Module(statements[:-1], []), code, "exec"), names)
+        exec(compile(ast.Module(statements[:-1], []), code, "exec"), names)  # noqa: S102
         value = eval(compile(ast.Expression(last.value), code, "eval"), names)
         return [] if value is None else flat(figures(value))
-    exec(code, names)
+    exec(code, names)  # noqa: S102
     assigned = ast.walk(last.targets[0]) if isinstance(last, ast.Assign) else ()
     return flat(figures([names[node.id] for node in assigned if isinstance(node, ast.Name)]))
 

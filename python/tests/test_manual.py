@@ -1,4 +1,4 @@
-"""The chapter on Python of the manual: its blocks run in order, and print what stands below them.
+"""Pages on Python: their blocks run in order, and print what stands below them.
 
 `GUMPTION_UPDATE=1 pytest python/tests/test_manual.py` writes the printed texts anew.
 """
@@ -15,7 +15,12 @@ from typing import Any
 import pytest
 from conftest import ROOT
 
-CHAPTER = ROOT / "docs/python.md"
+#: Pages, where the part of each that is run begins and ends, and the least number of its blocks.
+PAGES = [
+    ("docs/python.md", "# Python\n", "", 20),
+    ("README.md", "## In Python\n", "\n## ", 1),
+    ("python/README.md", "## Quantities as numbers\n", "\n## ", 2),
+]
 
 #: A block of code, and the printed text below it if there is one.
 BLOCK = re.compile(r"```python\n(.*?)```\n(?:\n```text\n(.*?)```\n)?", re.DOTALL)
@@ -27,24 +32,27 @@ def prompted(code: str, names: dict[str, Any]) -> str:
     with contextlib.redirect_stdout(printed):
         for statement in ast.parse(code).body:
             try:
-                exec(compile(ast.Interactive([statement]), "<chapter>", "single"), names)
-            except Exception as error:  # noqa: BLE001 - the chapter shows errors
+                exec(compile(ast.Interactive([statement]), "<page>", "single"), names)  # noqa: S102
+            except Exception as error:  # noqa: BLE001 - pages show errors
                 print(f"{type(error).__name__}: {error}")
     return printed.getvalue()
 
 
-def test_the_chapter_prints_what_it_shows() -> None:
+@pytest.mark.parametrize(("name", "begin", "end", "least"), PAGES, ids=[name for name, *_ in PAGES])
+def test_a_page_prints_what_it_shows(name: str, begin: str, end: str, least: int) -> None:
     pytest.importorskip("pandas")
-    chapter = CHAPTER.read_text(encoding="utf-8")
-    names: dict[str, Any] = {"__name__": "__chapter__"}
+    page = ROOT / name
+    before, _, rest = page.read_text(encoding="utf-8").partition(begin)
+    part, mark, after = rest.partition(end) if end else (rest, "", "")
+    names: dict[str, Any] = {"__name__": "__page__"}
 
     def shown(block: re.Match[str]) -> str:
         printed = prompted(block[1], names)
         return f"```python\n{block[1]}```\n" + (f"\n```text\n{printed}```\n" if printed else "")
 
-    made = BLOCK.sub(shown, chapter)
+    made = BLOCK.sub(shown, part)
     if "GUMPTION_UPDATE" in os.environ:
-        CHAPTER.write_text(made, encoding="utf-8")
-        return
-    assert chapter.count("```python") >= 20
-    assert made == chapter
+        page.write_text(before + begin + made + mark + after, encoding="utf-8")
+    else:
+        assert made == part
+    assert part.count("```python") >= least
