@@ -92,7 +92,15 @@ class Quantities(np.ndarray[Any, np.dtype[Any]]):
         return model_of(dict(zip(names, quantities)), title=title)
 
     def run(self, *arguments: Any, names: Sequence[str] | None = None, **options: Any) -> Result:
-        """Evaluate all quantities together, as `Model.run` does."""
+        """Evaluate all quantities together, as `Model.run` does.
+
+        Parameters
+        ----------
+        *arguments, **options
+            As of `Model.run`.
+        names : sequence of str, optional
+            The names of the outputs, as of `model`.
+        """
         return self.model(names).run(*arguments, **options)
 
     def _quantities(self) -> list[Quantity]:

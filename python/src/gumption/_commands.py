@@ -57,7 +57,13 @@ class Answer(dict[str, Any]):
         return _gumption.call([*arguments, *more], model, text)
 
     def to(self, format: str) -> bytes:  # noqa: A002 - the name that the command line has
-        """The answer in another format of the command, such as ``"table"`` or ``"html"``."""
+        """The answer in another format of the command, such as ``"table"`` or ``"html"``.
+
+        Parameters
+        ----------
+        format : str
+            The name of the format.
+        """
         return self._call(["--format", format, "--quiet"])[0]
 
     def save(self, path: str | os.PathLike[str]) -> None:
@@ -65,6 +71,11 @@ class Answer(dict[str, Any]):
 
         ``.html``, ``.md``, ``.tex``, ``.xlsx``, ``.txt``, ``.json``, ``.csv`` and for certificates
         ``.xml`` (the Digital Calibration Certificate), if the command has the format.
+
+        Parameters
+        ----------
+        path : path-like
+            The file.
         """
         self._call(["--format", format_of(path), "--output", os.fspath(path), "--quiet"])
 
@@ -366,7 +377,13 @@ def certificate(
 
 
 def diff(a: str | os.PathLike[str], b: str | os.PathLike[str]) -> Answer:
-    """Show what changed between two model files or saved results, and how it changed U."""
+    """Show what changed between two model files or saved results, and how it changed U.
+
+    Parameters
+    ----------
+    a, b : path-like
+        The two files, the earlier one first.
+    """
     return Answer(["diff", os.fspath(a), os.fspath(b)])
 
 
@@ -376,6 +393,12 @@ def verify() -> Answer:
 
 
 def check(file: str | os.PathLike[str] | Mapping[str, Any]) -> Answer:
-    """List all errors of a file, or of its content: ``{"ok": ..., "errors": [...]}``."""
+    """List all errors of a file, or of its content: ``{"ok": ..., "errors": [...]}``.
+
+    Parameters
+    ----------
+    file : path-like or mapping
+        The file, or its content.
+    """
     path, text = _given(file)
     return Answer(["check", path], None, text)

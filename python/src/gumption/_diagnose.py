@@ -174,6 +174,11 @@ class Runs:
     ) -> tuple[npt.NDArray[np.float64], npt.NDArray[np.float64]]:
         """A line of parameters for each run, and one of all outputs, output after output.
 
+        Parameters
+        ----------
+        parameters, outputs : sequence of str
+            Names in the order that is wanted.
+
         Raises
         ------
         ValueError
@@ -380,12 +385,24 @@ class Diagnosis:
 
     def to(self, format: str) -> bytes:  # noqa: A002 - the name that the command line has
         """The answer in a format of ``gumption gap``: ``"html"``, ``"table"``, ``"markdown"``, ``"json"``
-        or ``"csv"``."""
+        or ``"csv"``.
+
+        Parameters
+        ----------
+        format : str
+            The name of the format.
+        """
         return self._rust.to(format)
 
     def save(self, path: str | os.PathLike[str]) -> None:
         """Write the answer in the format given by the extension: ``.html``, ``.md``, ``.txt``, ``.json`` or
-        ``.csv``."""
+        ``.csv``.
+
+        Parameters
+        ----------
+        path : path-like
+            The file.
+        """
         answer = self.to(format_of(path))
         with open(path, "wb") as file:
             file.write(answer)

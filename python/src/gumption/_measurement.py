@@ -136,7 +136,13 @@ class Measurement:
         return f"Within the function {', '.join(units)}." if units else ""
 
     def called(self, values: Mapping[str, Any]) -> Mapping[str, Any]:
-        """The results of the function for one value of each argument, by the names of the outputs."""
+        """The results of the function for one value of each argument, by the names of the outputs.
+
+        Parameters
+        ----------
+        values : mapping of str to object
+            A value for each argument by its name.
+        """
         return self._named(self._call(values))
 
     def _call(self, values: Mapping[str, Any]) -> Any:

@@ -229,6 +229,11 @@ class Quantity(Term):
     def to(self, unit: str) -> Expression:
         """The same quantity in another unit.
 
+        Parameters
+        ----------
+        unit : str
+            The unit, such as ``"mm"`` or ``"kg/m^3"``.
+
         Raises
         ------
         ModelError
@@ -386,7 +391,15 @@ class Comparison(Expression):
     __slots__ = ()
 
     def probability(self, trials: int | None = None, seed: int | None = None) -> float:
-        """The probability that it holds, by Monte Carlo."""
+        """The probability that it holds, by Monte Carlo.
+
+        Parameters
+        ----------
+        trials : int, optional
+            Number of trials; the default of `Model.run` unless given.
+        seed : int, optional
+            Seed of the random streams.
+        """
         return float(self.run(trials=trials, seed=seed)["y"].monte_carlo.estimate)
 
     def __bool__(self) -> bool:

@@ -243,7 +243,13 @@ class Output(Quantity):
         return self.budget_at(0)
 
     def budget_at(self, row: int) -> Budget:
-        """The budget in a row of conditions, counted from 0."""
+        """The budget in a row of conditions, counted from 0.
+
+        Parameters
+        ----------
+        row : int
+            The row, counted from 0.
+        """
         columns = self._result._run.budget(self.name, row)
         if columns is None:
             raise _gumption.ModelError(
@@ -268,7 +274,13 @@ class Output(Quantity):
         return self._column("conformity.probability")
 
     def samples(self, row: int = 0) -> Samples:
-        """The trials in a row of conditions."""
+        """The trials in a row of conditions.
+
+        Parameters
+        ----------
+        row : int, default 0
+            The row of conditions, counted from 0.
+        """
         found = self._result.samples(self.name, row)
         assert isinstance(found, Samples)
         return found
@@ -382,7 +394,13 @@ class Result(Mapping[str, Output]):
         return [{"code": c, "where": w, "text": t} for c, w, t in self._run.warnings]
 
     def correlations(self, row: int = 0) -> npt.NDArray[np.float64]:
-        """The correlation matrix of the outputs in a row of conditions."""
+        """The correlation matrix of the outputs in a row of conditions.
+
+        Parameters
+        ----------
+        row : int, default 0
+            The row of conditions, counted from 0.
+        """
         count = len(self)
         matrix = np.eye(count)
         matrix[np.triu_indices(count, 1)] = self._run.correlations(row)
@@ -431,7 +449,13 @@ class Result(Mapping[str, Output]):
         return self._saved
 
     def save(self, path: str | os.PathLike[str]) -> None:
-        """Write the result file, which inputs of other models can use."""
+        """Write the result file, which inputs of other models can use.
+
+        Parameters
+        ----------
+        path : path-like
+            The file.
+        """
         _write(path, self.saved().encode())
 
     def to(self, format: str) -> bytes:  # noqa: A002 - the name that the command line has
@@ -451,6 +475,11 @@ class Result(Mapping[str, Output]):
 
         Extensions are ``.html``, ``.xlsx``, ``.md``, ``.tex``, ``.txt``, ``.json`` and ``.csv``, and
         ``.npy`` for the trials.
+
+        Parameters
+        ----------
+        path : path-like
+            The file.
         """
         if os.fspath(path).lower().endswith(".npy"):
             _write(path, bytes(self._run.trials_file("npy")))

@@ -19,7 +19,13 @@ class Samples(np.ndarray):
 
     @staticmethod
     def of(values: npt.NDArray[np.float64]) -> Samples:
-        """These values, not copied."""
+        """These values, not copied.
+
+        Parameters
+        ----------
+        values : ndarray
+            The values.
+        """
         return values.view(Samples)
 
     def __arrow_c_array__(self, requested_schema: Any = None) -> tuple[Any, Any]:

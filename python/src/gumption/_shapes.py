@@ -85,7 +85,13 @@ class Input(Quantity):
         return self.spec.get("distribution") == "constant"
 
     def to_dict(self, unit: str = "1") -> dict[str, Any]:
-        """The input as in a model file; `unit` is used if it has none of its own."""
+        """The input as in a model file; `unit` is used if it has none of its own.
+
+        Parameters
+        ----------
+        unit : str, default "1"
+            The unit of an input that has none.
+        """
         return {"unit": self.unit if self.unit is not None else unit, **self.spec}
 
     def __repr__(self) -> str:
@@ -122,7 +128,17 @@ def _shape(
 
 
 def constant(value: Value, unit: str | None = None, **more: Any) -> Input:
-    """A quantity that is known exactly."""
+    """A quantity that is known exactly.
+
+    Parameters
+    ----------
+    value : float or str
+        The value.
+    unit : str, optional
+        Unit of the values; by default that of the model.
+    **more
+        Further keys of an input in a model file.
+    """
     return _shape("constant", unit, {"value": value}, more)
 
 
@@ -186,7 +202,18 @@ def rectangular(
 ) -> Input:
     """A rectangular (uniform) distribution, by estimate and half-width or by its limits.
 
-    With `dof` the limits are not known exactly (JCGM 100, G.4.2; JCGM 101, 6.4.3).
+    Parameters
+    ----------
+    mean, half_width : float or str, optional
+        The estimate and half the width of the distribution.
+    unit : str, optional
+        Unit of the values; by default that of the model.
+    lower, upper : float or str, optional
+        The limits instead of `mean` and `half_width`.
+    dof : float, optional
+        Degrees of freedom, if the limits are not known exactly (JCGM 100, G.4.2; JCGM 101, 6.4.3).
+    **more
+        Further keys of an input in a model file.
     """
     return _limits("rectangular", mean, half_width, unit, lower, upper, {"dof": dof, **more})
 
@@ -202,7 +229,23 @@ def triangular(
     dof: float | None = None,
     **more: Any,
 ) -> Input:
-    """A triangular distribution; with limits the `mode` need not be in the middle."""
+    """A triangular distribution, by estimate and half-width or by its limits.
+
+    Parameters
+    ----------
+    mean, half_width : float or str, optional
+        The estimate and half the width of the distribution.
+    unit : str, optional
+        Unit of the values; by default that of the model.
+    lower, upper : float or str, optional
+        The limits instead of `mean` and `half_width`.
+    mode : float or str, optional
+        With limits, the most probable value; the middle unless given.
+    dof : float, optional
+        Degrees of freedom of the standard uncertainty.
+    **more
+        Further keys of an input in a model file.
+    """
     more = {"mode": mode, "dof": dof, **more}
     return _limits("triangular", mean, half_width, unit, lower, upper, more)
 
@@ -218,7 +261,23 @@ def trapezoidal(
     dof: float | None = None,
     **more: Any,
 ) -> Input:
-    """A symmetric trapezoidal distribution; `beta` is the ratio of its top's width to its base's."""
+    """A symmetric trapezoidal distribution, by estimate and half-width or by its limits.
+
+    Parameters
+    ----------
+    mean, half_width : float or str, optional
+        The estimate and half the width of the distribution.
+    unit : str, optional
+        Unit of the values; by default that of the model.
+    beta : float
+        The ratio of the width of its top to the width of its base.
+    lower, upper : float or str, optional
+        The limits instead of `mean` and `half_width`.
+    dof : float, optional
+        Degrees of freedom of the standard uncertainty.
+    **more
+        Further keys of an input in a model file.
+    """
     more = {"beta": beta, "dof": dof, **more}
     return _limits("trapezoidal", mean, half_width, unit, lower, upper, more)
 
@@ -232,14 +291,38 @@ def arcsine(
     upper: Value | None = None,
     **more: Any,
 ) -> Input:
-    """An arcsine (U-shaped) distribution: a quantity that cycles sinusoidally."""
+    """An arcsine (U-shaped) distribution: a quantity that cycles sinusoidally.
+
+    Parameters
+    ----------
+    mean, half_width : float or str, optional
+        The estimate and half the width of the distribution.
+    unit : str, optional
+        Unit of the values; by default that of the model.
+    lower, upper : float or str, optional
+        The limits instead of `mean` and `half_width`.
+    **more
+        Further keys of an input in a model file.
+    """
     return _limits("arcsine", mean, half_width, unit, lower, upper, more)
 
 
 def curvilinear_trapezoid(
     lower: Value, upper: Value, inexactness: Value, unit: str | None = None, **more: Any
 ) -> Input:
-    """A rectangular distribution whose limits are not known exactly (JCGM 101, 6.4.3)."""
+    """A rectangular distribution whose limits are not known exactly (JCGM 101, 6.4.3).
+
+    Parameters
+    ----------
+    lower, upper : float or str
+        The estimates of the limits.
+    inexactness : float or str
+        Half the width of the interval in which each limit lies.
+    unit : str, optional
+        Unit of the values; by default that of the model.
+    **more
+        Further keys of an input in a model file.
+    """
     fields = {"lower": lower, "upper": upper, "inexactness": inexactness}
     return _shape("curvilinear-trapezoid", unit, fields, more)
 
@@ -247,7 +330,21 @@ def curvilinear_trapezoid(
 def student_t(
     mean: Value, scale: Value, dof: float, unit: str | None = None, **more: Any
 ) -> Input:
-    """A scaled and shifted t distribution; by the GUM its standard uncertainty is `scale`."""
+    """A scaled and shifted t distribution.
+
+    Parameters
+    ----------
+    mean : float or str
+        The estimate.
+    scale : float or str
+        The scale; by the GUM it is the standard uncertainty.
+    dof : float
+        The degrees of freedom.
+    unit : str, optional
+        Unit of the values; by default that of the model.
+    **more
+        Further keys of an input in a model file.
+    """
     return _shape("t", unit, {"mean": mean, "scale": scale, "dof": dof}, more)
 
 
@@ -272,17 +369,49 @@ def readings(
 
 
 def exponential(mean: Value, unit: str | None = None, **more: Any) -> Input:
-    """An exponential distribution (JCGM 101, 6.4.10)."""
+    """An exponential distribution (JCGM 101, 6.4.10).
+
+    Parameters
+    ----------
+    mean : float or str
+        The estimate, which is the standard uncertainty as well.
+    unit : str, optional
+        Unit of the values; by default that of the model.
+    **more
+        Further keys of an input in a model file.
+    """
     return _shape("exponential", unit, {"mean": mean}, more)
 
 
 def gamma(shape: float, rate: float, unit: str | None = None, **more: Any) -> Input:
-    """A gamma distribution; `rate` is in 1/unit."""
+    """A gamma distribution.
+
+    Parameters
+    ----------
+    shape : float
+        The shape parameter.
+    rate : float
+        The rate parameter in 1/unit; the estimate is ``shape/rate``.
+    unit : str, optional
+        Unit of the values; by default that of the model.
+    **more
+        Further keys of an input in a model file.
+    """
     return _shape("gamma", unit, {"shape": shape, "rate": rate}, more)
 
 
 def lognormal(mean: Value, std: Value, unit: str | None = None, **more: Any) -> Input:
-    """A log-normal distribution; `mean` and `std` are those of the quantity itself."""
+    """A log-normal distribution.
+
+    Parameters
+    ----------
+    mean, std : float or str
+        Estimate and standard uncertainty of the quantity, not of its logarithm.
+    unit : str, optional
+        Unit of the values; by default that of the model.
+    **more
+        Further keys of an input in a model file.
+    """
     return _shape("lognormal", unit, {"mean": mean, "std": std}, more)
 
 
@@ -295,28 +424,82 @@ def beta(
     upper: Value | None = None,
     **more: Any,
 ) -> Input:
-    """A beta distribution between 0 and 1, or between limits."""
+    """A beta distribution between 0 and 1, or between limits.
+
+    Parameters
+    ----------
+    alpha, beta : float
+        The parameters of the shape.
+    unit : str, optional
+        Unit of the values; by default that of the model.
+    lower, upper : float or str, optional
+        The limits.
+    **more
+        Further keys of an input in a model file.
+    """
     fields = {"alpha": alpha, "beta": beta, "lower": lower, "upper": upper}
     return _shape("beta", unit, fields, more)
 
 
 def log_uniform(lower: Value, upper: Value, unit: str | None = None, **more: Any) -> Input:
-    """A distribution whose logarithm is rectangular, between limits above 0."""
+    """A distribution whose logarithm is rectangular.
+
+    Parameters
+    ----------
+    lower, upper : float or str
+        The limits, above 0.
+    unit : str, optional
+        Unit of the values; by default that of the model.
+    **more
+        Further keys of an input in a model file.
+    """
     return _shape("log-uniform", unit, {"lower": lower, "upper": upper}, more)
 
 
 def poisson_count(count: int, unit: str | None = None, **more: Any) -> Input:
-    """The expected number of events for a count (JCGM 101, 6.4.11)."""
+    """The expected number of events for a count (JCGM 101, 6.4.11).
+
+    Parameters
+    ----------
+    count : int
+        The number of events that were counted.
+    unit : str, optional
+        Unit of the values; by default that of the model.
+    **more
+        Further keys of an input in a model file.
+    """
     return _shape("poisson-count", unit, {"count": count}, more)
 
 
 def samples(values: npt.ArrayLike, unit: str | None = None, **more: Any) -> Input:
-    """An empirical distribution: values that are drawn with replacement."""
+    """An empirical distribution: values that are drawn with replacement.
+
+    Parameters
+    ----------
+    values : array_like
+        The values.
+    unit : str, optional
+        Unit of the values; by default that of the model.
+    **more
+        Further keys of an input in a model file.
+    """
     return _shape("samples", unit, {"values": np.asarray(values, dtype=float).tolist()}, more)
 
 
 def result(file: str | os.PathLike[str], output: str, unit: str | None = None, **more: Any) -> Input:
-    """An output of a saved result (``Result.save``, ``gumption run --save``)."""
+    """An output of a saved result (``Result.save``, ``gumption run --save``).
+
+    Parameters
+    ----------
+    file : path-like
+        The file.
+    output : str
+        The name of the output.
+    unit : str, optional
+        Unit of the values; by default that of the model.
+    **more
+        Further keys of an input in a model file.
+    """
     import hashlib
 
     with open(file, "rb") as opened:
@@ -349,6 +532,13 @@ def components(mean: Value | None, parts: Mapping[str, Input], unit: str | None 
 
 def known(unit: str | None = None, **keys: Any) -> Input:
     """An input by the keys that it has in a model file.
+
+    Parameters
+    ----------
+    unit : str, optional
+        Its unit; by default that of the model.
+    **keys
+        The keys, such as ``distribution``.
 
     Examples
     --------
