@@ -93,6 +93,7 @@ class TestFigures:
         assert str(gu.normal(1.2345, 0.0234, "cm")) == "1.235(23) cm"
         assert str(gu.normal(12.3, 1.26)) == "12.3(1.3)"
         assert str(gu.constant(5)) == "5"
+        assert repr(gu.normal(5, 0.1, "V", name="V") - gu.constant(5, "V")).startswith("<gumption.Expression V - 5 [V] =")
         assert f"{2 * gu.normal(100, 20, 'g')}" == "200(40) g"
         assert repr(2 * gu.normal(1, 0.1, "V", name="v")) == "<gumption.Expression 2*v = 2.00(20) V>"
         assert str(gu.complex_normal(3 - 4j, 0.1)) == "(3.00(10)-4.00(10)j)"
@@ -112,6 +113,14 @@ class TestIdentity:
         close([second.estimate, second.u], [2, 0.2])
         close((second - y).u, 0)
         close((2 * first - 2 * x - 2 * second).u, 0)
+
+    def test_a_result_in_an_expression_is_its_formula(self) -> None:
+        x = gu.normal(0, 0.1)
+        square = (x * x).run(trials=1000, seed=1).y
+        # by first order, as the result itself, whose trials have another mean
+        close([square.estimate, (3 * square).estimate, (3 * square).u], [0, 0, 0])
+        assert list((2 * gu.normal(1, 0.1, name="y")).run(trials=0)) == ["y_2"]
+        assert list((2 * square).run(trials=0)) == ["y"]
 
     def test_results_of_functions(self) -> None:
         @gu.model(inputs={"a": "V", "b": "ohm"}, outputs={"i": "A", "p": "W"})

@@ -438,7 +438,7 @@ class Writer:
         if not one.operands:
             # a quantity with a unit is written with a blank, as `20 [mm]`
             text = self._name(one)
-            return text, _PRODUCT if " " in text else _ATOM, 0
+            return text, _PRODUCT if " " in text and text[0] != "(" else _ATOM, 0
         parts = [self._texts[operand.number] for operand in one.operands]
         depth = max(depth for *_, depth in parts) + 1
         symbol = one.symbol

@@ -95,10 +95,11 @@ class Joint:
         units: Mapping[str, str],
         taken: Iterable[str],
         check_units: bool,
+        terms: Iterable[str] = (),
     ) -> Joint | None:
         """The combined models of values that share quantities with other values.
 
-        So are results of runs without trials, which have no distribution to draw from. ``equations`` then
+        `terms` are names of those that stand in expressions, whose models are combined where that can be. So are results of runs without trials, which have no distribution to draw from. ``equations`` then
         contains those values under their own names. `None` if there are none.
 
         Raises
@@ -108,7 +109,13 @@ class Joint:
         """
         sharing = _sharing(known)
         untried = [name for name, value in known.items() if is_output(value) and not value._result.has_trials]
-        together = list(dict.fromkeys([*sharing, *untried]))
+        of_results = [name for name in terms if is_output(known[name])]
+        possible = [
+            name
+            for name in of_results
+            if _why_not(known[name]._result.model, known[name]._result, check_units) is None
+        ]
+        together = list(dict.fromkeys([*sharing, *untried, *possible]))
         if not together:
             return None
         joint = cls([*known, *taken], check_units)
@@ -126,7 +133,7 @@ class Joint:
                     joint.equations[name] = joint._output(value)
                     joint.expanded.append(name)
         except _NotTogether as reason:
-            if not sharing:
+            if untried and not sharing:
                 raise _gumption.ModelError(
                     f"{listed(untried)}: a run without trials has no distribution, so its model has to be "
                     f"evaluated again, but {reason}; make the run with trials"
@@ -180,27 +187,15 @@ class Joint:
     def _added(self, model: Model, result: Result) -> dict[str, str]:
         file = model.to_dict()
         title = f"the model {model.title!r}"
-        if model._function is not None:
-            raise _NotTogether(f"{title} is a function that could not be traced")
-        if model._rust.source[5]:
-            raise _NotTogether(f"estimates of {title} were replaced by `set`")
-        if model._rust.source[7] is not None:
-            raise _NotTogether(f"readings of {title} were replaced")
-        if others := sorted(set(file) - _PLAIN):
-            raise _NotTogether(f"{title} has `{others[0]}`")
-        if result.rows > 1:
-            raise _NotTogether(f"{title} has {result.rows} rows of conditions")
-        if file.get("check_units", True) != self._check_units:
-            raise _NotTogether("units are checked in one of their models and not in another one")
+        if reason := _why_not(model, result, self._check_units):
+            raise _NotTogether(reason)
         for name, content in model._rust.source[3]:
             if name not in file.get("conditions", {}).values() and self.held.setdefault(name, content) != content:
                 raise _NotTogether(f"{title} names another file `{name}`")
         known, units = model._known or {}, model.inputs
         names: dict[str, str] = {}
         for name in file["inputs"]:
-            value = known.get(name)
-            if value is None:
-                raise _NotTogether(f"what `{name}` of {title} is stands in its file alone")
+            value = known[name]
             of_output = is_output(value)
             names[name] = self._output(value) if of_output else self._input(value, name, units[name])
         row = result.conditions
@@ -214,6 +209,31 @@ class Joint:
         for first, second, coefficient in file.get("correlations", []):
             self.links.append((names[first], names[second], coefficient))
         return names
+
+
+def _why_not(model: Model, result: Result, check_units: bool) -> str | None:
+    """Why the formulas of a result's model cannot be inserted into another one; `None` if they can."""
+    file = model.to_dict()
+    title = f"the model {model.title!r}"
+    if model._function is not None:
+        return f"{title} is a function that could not be traced"
+    if model._rust.source[5]:
+        return f"estimates of {title} were replaced by `set`"
+    if model._rust.source[7] is not None:
+        return f"readings of {title} were replaced"
+    if others := sorted(set(file) - _PLAIN):
+        return f"{title} has `{others[0]}`"
+    if result.rows > 1:
+        return f"{title} has {result.rows} rows of conditions"
+    if file.get("check_units", True) != check_units:
+        return "units are checked in one of their models and not in another one"
+    for name in file["inputs"]:
+        value = (model._known or {}).get(name)
+        if value is None:
+            return f"what `{name}` of {title} is stands in its file alone"
+        if is_output(value) and (reason := _why_not(value._result.model, value._result, check_units)):
+            return reason
+    return None
 
 
 def listed(names: Iterable[str]) -> str:

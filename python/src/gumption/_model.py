@@ -377,6 +377,7 @@ def take_inputs(
     given: Mapping[str, Any],
     units: Mapping[str, str],
     kept: Mapping[str, Any],
+    terms: Iterable[str] = (),
 ) -> tuple[dict[str, bytes], dict[str, Any]]:
     """Writes inputs into a model file.
 
@@ -390,6 +391,8 @@ def take_inputs(
         Some of its inputs, and the units of inputs without a unit.
     kept : mapping
         Its other inputs.
+    terms : iterable of str
+        Which of `given` stand in expressions.
 
     Returns
     -------
@@ -397,10 +400,10 @@ def take_inputs(
         The files that the inputs name, and all inputs.
     """
     held: dict[str, bytes] = {}
-    given, units = _insert_expressions(file, given, units)
+    given, units, inserted = _insert_expressions(file, given, units)
     taken = [name for key in ("inputs", "equations", "outputs", "conditions") for name in file.get(key, ())]
     check_units = file.get("check_units", True)
-    joint = Joint.of({**kept, **given}, units, taken, check_units)
+    joint = Joint.of({**kept, **given}, units, taken, check_units, [*terms, *inserted])
     known = {**kept, **given}
     links = list(file.get("correlations", []))
     if joint is not None:
@@ -442,11 +445,12 @@ def take_inputs(
 
 def _insert_expressions(
     file: dict[str, Any], given: Mapping[str, Any], units: Mapping[str, str]
-) -> tuple[Mapping[str, Any], Mapping[str, str]]:
-    """Writes inputs that are expressions as formulas of what is in them, and gives this and its units."""
+) -> tuple[Mapping[str, Any], Mapping[str, str], Iterable[str]]:
+    """Writes inputs that are expressions as formulas; gives all inputs, their units, and the names of those
+    that stand in expressions."""
     expressions = {name: value for name, value in given.items() if isinstance(value, Expression)}
     if not expressions:
-        return given, units
+        return given, units, ()
     if not file.get("check_units", True):
         raise _gumption.ModelError(
             f"{listed(expressions)}: an expression computes in coherent units, and the model with the numbers of its declared "
@@ -459,7 +463,7 @@ def _insert_expressions(
     file["inputs"].update(dict.fromkeys(leaves))
     file["equations"] = {**equations, **file.get("equations", {})}
     own = {name: value for name, value in given.items() if name not in expressions}
-    return {**own, **leaves}, {**units, **dict.fromkeys(leaves, "1")}
+    return {**own, **leaves}, {**units, **dict.fromkeys(leaves, "1")}, leaves
 
 
 def written(file: Mapping[str, Any]) -> str:

@@ -85,6 +85,11 @@ class Quantity(Term):
         raise NotImplementedError
 
     @property
+    def _as_text(self) -> str | None:
+        """What it is in a formula, if it has no name there."""
+        return None
+
+    @property
     def _is_complex(self) -> bool:
         return False
 
@@ -135,32 +140,37 @@ class Quantity(Term):
 
     # figures
 
-    def model(self, name: str = "y", *, title: str | None = None) -> Model:
+    def model(self, name: str | None = None, *, title: str | None = None) -> Model:
         """The model of which this quantity is the output.
 
         Parameters
         ----------
-        name : str, default "y"
-            The name of the output.
+        name : str, optional
+            The name of the output; ``y``, or ``y_2`` where an input is called ``y``.
         title : str, optional
             The title of its pages; the formula unless given.
         """
-        return model_of({name: self}, title=title)
+        return model_of({name or self._own_name(): self}, title=title)
 
-    def run(self, *arguments: Any, name: str = "y", **options: Any) -> Result:
+    def _own_name(self) -> str:
+        from gumption._joint import is_output
+
+        return _free("y", {leaf.symbol for leaf in self._leaves() if not is_output(leaf)})
+
+    def run(self, *arguments: Any, name: str | None = None, **options: Any) -> Result:
         """Evaluate by the law of propagation and by Monte Carlo, as `Model.run` does.
 
         Parameters
         ----------
         *arguments, **options
             As of `Model.run`.
-        name : str, default "y"
-            The name of the output.
+        name : str, optional
+            The name of the output; ``y``, or ``y_2`` where an input is called ``y``.
         """
         return self.model(name).run(*arguments, **options)
 
     def _evaluated(self) -> Output:
-        return self.run(trials=0)["y"]
+        return next(iter(self.run(trials=0).values()))
 
     def _figure(self, name: str) -> float:
         return float(getattr(self._evaluated().gum, name))
@@ -400,7 +410,8 @@ class Comparison(Expression):
         seed : int, optional
             Seed of the random streams.
         """
-        return float(self.run(trials=trials, seed=seed)["y"].monte_carlo.estimate)
+        found = next(iter(self.run(trials=trials, seed=seed).values()))
+        return float(found.monte_carlo.estimate)
 
     def __bool__(self) -> bool:
         first, second = self.operands
@@ -535,7 +546,7 @@ def _named(
     for quantity in quantities:
         for leaf in quantity._leaves():
             identity = identity_of(leaf)
-            if identity not in names:
+            if leaf._as_text is None and identity not in names:
                 names[identity] = name = _free(leaf.symbol, used)
                 leaves[name] = leaf
     return names, leaves
@@ -554,7 +565,13 @@ def _free(wanted: str, used: set[str]) -> str:
 def _name_by(names: Mapping[object, str]) -> Callable[[Term], str]:
     from gumption._joint import identity_of
 
-    return lambda term: term.symbol if isinstance(term, Expression) else names[identity_of(term)]
+    def name(term: Term) -> str:
+        if isinstance(term, Expression):
+            return term.symbol
+        text = term._as_text if isinstance(term, Quantity) else None
+        return names[identity_of(term)] if text is None else text
+
+    return name
 
 
 def formulas(
@@ -606,13 +623,13 @@ def model_of(quantities: Mapping[str, Any], *, title: str | None = None) -> Mode
             raise TypeError(f"`{name}`: a quantity is needed, not a {type(quantity).__name__}")
     equations, leaves = formulas(quantities, ())
     if title is None:
-        title = cut("; ".join(f"{name} = {equations[name]}" for name in quantities))
+        title = "Expression " + cut("; ".join(f"{name} = {equations[name]}" for name in quantities))
     outputs: dict[str, Any] = {}
     for name, quantity in quantities.items():
         outputs[name] = {"unit": quantity._unit, **({"complex": "re-im"} if quantity._is_complex else {})}
     file: dict[str, Any] = {
         "format": 1, "title": title, "inputs": dict.fromkeys(leaves), "equations": equations, "outputs": outputs,
     }  # fmt: skip
-    held, known = take_inputs(file, leaves, dict.fromkeys(leaves, "1"), {})
+    held, known = take_inputs(file, leaves, dict.fromkeys(leaves, "1"), {}, leaves)
     rust = _gumption.Model("<expression>", written(file), "", list(held.items()))
     return Model._of(rust, known=known)

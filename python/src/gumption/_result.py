@@ -301,13 +301,9 @@ class Output(Quantity):
         return Input(spec, self.unit, [(name, text.encode())])
 
     def __repr__(self) -> str:
-        gum = self.gum
         if self._result._run.swept:
             return f"<gumption.Output {self.name} in {self.unit}: {self._result.rows} rows>"
-        return (
-            f"<gumption.Output {self.name}: {gum.estimate:.7g} {self.unit}, "
-            f"u = {gum.standard_uncertainty:.3g} {self.unit}>"
-        )
+        return f"<gumption.Output {self.name} = {self}>"
 
 
 class Result(Mapping[str, Output]):

@@ -84,6 +84,14 @@ class Input(Quantity):
     def _is_exact(self) -> bool:
         return self.spec.get("distribution") == "constant"
 
+    @property
+    def _as_text(self) -> str | None:
+        value = self.spec.get("value")
+        if self.name or not self._is_exact or len(self.spec) > 2 or not isinstance(value, (int, float)):
+            return None
+        text = f"{value!r} [{self.unit}]" if self._unit != "1" else repr(value)
+        return f"({text})" if value < 0 else text
+
     def to_dict(self, unit: str = "1") -> dict[str, Any]:
         """The input as in a model file; `unit` is used if it has none of its own.
 
