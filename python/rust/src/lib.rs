@@ -2,10 +2,12 @@
 //! command line of this workspace as Python objects. What is only Python stands in
 //! `python/gumption`.
 
+mod argument_place;
 mod arrow;
 mod budgets;
 mod call;
 mod columns;
+mod coverage;
 mod diagnosis;
 mod draws;
 mod errors;
@@ -13,6 +15,7 @@ mod function;
 mod model;
 mod parts;
 mod run;
+mod shown;
 mod supervised;
 
 use pyo3::prelude::*;
@@ -41,6 +44,10 @@ fn _gumption(module: &Bound<'_, PyModule>) -> PyResult<()> {
     module.add_function(wrap_pyfunction!(call::carried_models, module)?)?;
     module.add_function(wrap_pyfunction!(call::case_source, module)?)?;
     module.add_function(wrap_pyfunction!(call::main, module)?)?;
+    module.add_function(wrap_pyfunction!(shown::equation_html, module)?)?;
+    module.add_function(wrap_pyfunction!(shown::equation_latex, module)?)?;
+    module.add_function(wrap_pyfunction!(shown::input_keys, module)?)?;
+    module.add_function(wrap_pyfunction!(shown::printed, module)?)?;
     module.add_function(wrap_pyfunction!(call::unit_scale, module)?)?;
     module.add_function(wrap_pyfunction!(call::unit_within, module)?)?;
     module.add_function(wrap_pyfunction!(call::units_fit, module)?)?;
