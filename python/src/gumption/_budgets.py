@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 import numpy.typing as npt
@@ -72,7 +72,21 @@ class OutputBudgets:
 
 
 class _All(Mapping[str, OutputBudgets]):
-    """The budgets of all outputs by name."""
+    """The budgets of all outputs by name.
+
+    Of a model of one output the columns are attributes as well.
+    """
+
+    if TYPE_CHECKING:
+        name: str
+        unit: str
+        estimate: Column
+        standard_uncertainty: Column
+        expanded_uncertainty: Column
+        dof: Column
+        coverage_factor: Column
+        sensitivities: dict[str, Column]
+        contributions: dict[str, Column]
 
     def __init__(self, outputs: Mapping[str, OutputBudgets]) -> None:
         self._outputs = dict(outputs)
@@ -103,7 +117,7 @@ def budgets(
     k: float | None = None,
     real_dof: bool = False,
     **columns: Any,
-) -> Any:
+) -> _All:
     """Budgets of many measurements of one model: columns in, columns out.
 
     Parameters

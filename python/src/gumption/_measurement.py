@@ -9,7 +9,10 @@ import re
 import types
 import warnings
 from collections.abc import Callable, Mapping, Sequence
-from typing import Any
+from typing import Any, overload
+
+import numpy as np
+import numpy.typing as npt
 
 from gumption import _gumption
 from gumption._arguments import Arguments
@@ -176,6 +179,36 @@ class Measurement:
             self._is_traced, self.check,
         )  # fmt: skip
 
+    @overload
+    def __call__(
+        self,
+        *arguments: Any,
+        conditions: None = None,
+        correlations: Sequence[tuple[str, str, float]] = ...,
+        title: str | None = ...,
+        trials: int | str | None = ...,
+        seed: int | None = ...,
+        coverage_probability: float | None = ...,
+        coverage_factor: float | None = ...,
+        tolerance: Mapping[str, Mapping[str, float]] | None = ...,
+        **named: Any,
+    ) -> Model[float]: ...
+
+    @overload
+    def __call__(
+        self,
+        *arguments: Any,
+        conditions: Any,
+        correlations: Sequence[tuple[str, str, float]] = ...,
+        title: str | None = ...,
+        trials: int | str | None = ...,
+        seed: int | None = ...,
+        coverage_probability: float | None = ...,
+        coverage_factor: float | None = ...,
+        tolerance: Mapping[str, Mapping[str, float]] | None = ...,
+        **named: Any,
+    ) -> Model[npt.NDArray[np.float64]]: ...
+
     def __call__(
         self,
         *arguments: Any,
@@ -188,7 +221,7 @@ class Measurement:
         coverage_factor: float | None = None,
         tolerance: Mapping[str, Mapping[str, float]] | None = None,
         **named: Any,
-    ) -> Model:
+    ) -> Model[Any]:
         """The model with its inputs.
 
         Parameters
@@ -256,7 +289,7 @@ class Measurement:
         known: Mapping[str, Any],
         held: Mapping[str, bytes],
         aliases: Mapping[str, str],
-    ) -> Model:
+    ) -> Model[Any]:
         """The model of a file that has no formulas yet, and nothing about its inputs."""
         formulas = {**aliases, **(self.equations or {})}
         file["equations"] = formulas

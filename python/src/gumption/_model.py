@@ -6,23 +6,28 @@ import json
 import os
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from contextlib import contextmanager
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, Generic, overload
+
+import numpy as np
+import numpy.typing as npt
 
 from gumption import _gumption
 from gumption._frames import condition_file, readings_file
 from gumption._joint import Joint, identity_of
 from gumption._quantities import as_input, as_known, shared, unit_of
-from gumption._result import Result
+from gumption._result import Figure_co, Result
 
 if TYPE_CHECKING:
     from gumption._block import BlockFunction
     from gumption._check import Held
 
 
-class Model:
+class Model(Generic[Figure_co]):
     """A measurement model with its inputs; it is immutable.
 
-    `load`, `from_dict`, `from_json` and `Measurement` make models. They pickle.
+    `load`, `from_dict`, `from_json` and `Measurement` make models. They pickle. To type checkers
+    ``Model[float]`` is a model without conditions, whose figures are numbers, and
+    ``Model[NDArray[float64]]`` one with conditions, whose figures are arrays.
     """
 
     _rust: _gumption.Model
@@ -43,7 +48,7 @@ class Model:
         function: BlockFunction | None = None,
         known: Mapping[str, Any] | None = None,
         held: Held | None = None,
-    ) -> Model:
+    ) -> Model[Any]:
         made = object.__new__(cls)
         made._rust, made._function, made._known, made._held = rust, function, known, held
         return made
@@ -111,7 +116,7 @@ class Model:
         parts: int | None = None,
         resume: str | os.PathLike[str] | None = None,
         to_save: bool = False,
-    ) -> Result:
+    ) -> Result[Figure_co]:
         """Evaluate by the law of propagation (JCGM 100) and by Monte Carlo (JCGM 101).
 
         Other Python threads continue meanwhile, and Ctrl-C ends the run at once. Settings that are
@@ -210,7 +215,7 @@ class Model:
             )  # fmt: skip
         return Result(model, given, run)
 
-    def _with_readings(self, readings: Any) -> Model:
+    def _with_readings(self, readings: Any) -> Model[Figure_co]:
         """The model with readings that replace its own."""
         self._refuse_function("readings")
         return self._derived(_gumption.Model(*self._rust.source[:7], readings_file(readings)), self._known)
@@ -249,7 +254,7 @@ class Model:
         with self._bar(options, progress) as told:
             return self._rust.run(options, told, self._columns())
 
-    def set(self, *replacements: str, **values: Any) -> Model:
+    def set(self, *replacements: str, **values: Any) -> Model[Figure_co]:
         """The model with replaced estimates or fields of inputs, as for ``--set``.
 
         Limits move along with an estimate, and widths follow their specification.
@@ -275,7 +280,7 @@ class Model:
         *,
         correlations: Sequence[tuple[str, str, float]] | None = None,
         **named: Any,
-    ) -> Model:
+    ) -> Model[Figure_co]:
         """The model with some inputs replaced.
 
         Parameters
@@ -303,7 +308,9 @@ class Model:
         held, known = take_inputs(file, given, units, kept)
         return self._with(file, {**dict(self._rust.source[3]), **held}, known)
 
-    def with_conditions(self, table: Any, units: Mapping[str, str] | None = None) -> Model:
+    def with_conditions(
+        self, table: Any, units: Mapping[str, str] | None = None
+    ) -> Model[npt.NDArray[np.float64]]:
         """The model in every row of a table of conditions.
 
         Parameters
@@ -325,14 +332,14 @@ class Model:
 
     def _with(
         self, file: Mapping[str, Any], held: Mapping[str, bytes], known: Mapping[str, Any] | None
-    ) -> Model:
+    ) -> Model[Any]:
         name, _, folder, _, allow, replaced, accept, readings = self._rust.source
         text = _json(file)
         files = list(held.items())
-        made = _gumption.Model(name, text, folder, files, allow, replaced, accept, readings)
+        made = _gumption.Model(_made(name), text, folder, files, allow, replaced, accept, readings)
         return self._derived(made, known)
 
-    def _derived(self, rust: _gumption.Model, known: Mapping[str, Any] | None) -> Model:
+    def _derived(self, rust: _gumption.Model, known: Mapping[str, Any] | None) -> Model[Any]:
         """A model with the same formulas, checked against their function."""
         held = self._held.of(rust) if self._held is not None else None
         return Model._of(rust, known=known, held=held)
@@ -436,6 +443,13 @@ def take_inputs(
     return held, known
 
 
+def _made(name: str) -> str:
+    """The name of a text that is made here, and has no places that anybody knows."""
+    if name == "<json>":
+        return "<dict>"
+    return name if name.startswith("<") else f"<dict {name}>"
+
+
 def _json(file: Mapping[str, Any]) -> str:
     return json.dumps(file, indent=1, ensure_ascii=False, allow_nan=False)
 
@@ -447,7 +461,7 @@ def load(
     set: Mapping[str, Any] | Sequence[str] = (),  # noqa: A002 - the name that the command line has
     allow_path: Sequence[str | os.PathLike[str]] = (),
     accept_changed: bool = False,
-) -> Model:
+) -> Model[Any]:
     """Read a model file, or the model that another file carries.
 
     A workbook of a run (``--format xlsx``) contains its model file, and a Digital Calibration
@@ -512,7 +526,7 @@ def _carried(path: str, wanted: str | None) -> tuple[str, str, list[tuple[str, b
     raise _gumption.ModelError(f"{path}: it carries {names}; say which with `model=`")
 
 
-def from_json(text: str, *, name: str = "<json>", folder: str | os.PathLike[str] = "") -> Model:
+def from_json(text: str, *, name: str = "<json>", folder: str | os.PathLike[str] = "") -> Model[Any]:
     """Read the text of a model file.
 
     Parameters
@@ -527,13 +541,33 @@ def from_json(text: str, *, name: str = "<json>", folder: str | os.PathLike[str]
     return Model._of(_gumption.Model(name, text, os.fspath(folder)))
 
 
+@overload
+def from_dict(
+    file: Mapping[str, Any],
+    *,
+    name: str = ...,
+    folder: str | os.PathLike[str] = ...,
+    conditions: None = None,
+) -> Model[Any]: ...
+
+
+@overload
+def from_dict(
+    file: Mapping[str, Any],
+    *,
+    name: str = ...,
+    folder: str | os.PathLike[str] = ...,
+    conditions: Any,
+) -> Model[npt.NDArray[np.float64]]: ...
+
+
 def from_dict(
     file: Mapping[str, Any],
     *,
     name: str = "<dict>",
     folder: str | os.PathLike[str] = "",
     conditions: Any = None,
-) -> Model:
+) -> Model[Any]:
     """Make a model from a dictionary with the keys of a model file.
 
     Inputs may be whatever `Measurement` takes: `Input` objects, outputs of results, numbers of
@@ -567,5 +601,5 @@ def from_dict(
         units = {n: of if isinstance(of, str) else of.get("unit", "1") for n, of in asked.items()}
         made["conditions"], tables = condition_file(conditions, units)
         held.update(tables)
-    rust = _gumption.Model(name, _json(made), os.fspath(folder), list(held.items()))
+    rust = _gumption.Model(_made(name), _json(made), os.fspath(folder), list(held.items()))
     return Model._of(rust, known=known)

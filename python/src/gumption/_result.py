@@ -8,7 +8,7 @@ import json
 import os
 import uuid
 from collections.abc import Iterator, Mapping
-from typing import TYPE_CHECKING, Any, Union
+from typing import TYPE_CHECKING, Any, Generic, TypeVar, cast
 
 import numpy as np
 import numpy.typing as npt
@@ -19,10 +19,15 @@ from gumption._samples import Samples, SampleTable
 from gumption._shapes import Input
 
 if TYPE_CHECKING:
+    from typing_extensions import TypeVar as TypeVarWithDefault
+
     from gumption._model import Model
 
-#: A figure: a number, or with conditions one for each row of these.
-Figure = Union[float, npt.NDArray[np.float64]]
+    #: A figure: a number, with conditions an array of one for each row, or either where the type of the
+    #: model says neither.
+    Figure_co = TypeVarWithDefault("Figure_co", default=Any, covariant=True)
+else:
+    Figure_co = TypeVar("Figure_co", covariant=True)
 
 #: Formats of pages and answers, by the extensions of files.
 FORMATS = {
@@ -48,15 +53,15 @@ def framed(page: str) -> str:
     )
 
 
-class _Figures:
+class _Figures(Generic[Figure_co]):
     """Results for one output by one method."""
 
     _method = ""
 
-    def __init__(self, output: Output) -> None:
+    def __init__(self, output: Output[Figure_co]) -> None:
         self._output = output
 
-    def _figure(self, name: str) -> Figure:
+    def _figure(self, name: str) -> Figure_co:
         return self._output._figure(f"{self._method}.{name}")
 
     def _pair(self, low: str, high: str) -> npt.NDArray[np.float64]:
@@ -68,7 +73,7 @@ class _Figures:
         return "\n".join(lines)
 
 
-class Gum(_Figures):
+class Gum(_Figures[Figure_co]):
     """One output by the law of propagation (JCGM 100).
 
     With conditions every value is an array with one entry per row. Undefined values are NaN.
@@ -77,27 +82,27 @@ class Gum(_Figures):
     _method = "gum"
 
     @property
-    def estimate(self) -> Figure:
+    def estimate(self) -> Figure_co:
         """Estimate y."""
         return self._figure("estimate")
 
     @property
-    def standard_uncertainty(self) -> Figure:
+    def standard_uncertainty(self) -> Figure_co:
         """Combined standard uncertainty u(y)."""
         return self._figure("standard_uncertainty")
 
     @property
-    def dof(self) -> Figure:
+    def dof(self) -> Figure_co:
         """Effective degrees of freedom; infinite if those of every contribution are."""
         return self._figure("dof")
 
     @property
-    def coverage_factor(self) -> Figure:
+    def coverage_factor(self) -> Figure_co:
         """Coverage factor k."""
         return self._figure("coverage_factor")
 
     @property
-    def expanded_uncertainty(self) -> Figure:
+    def expanded_uncertainty(self) -> Figure_co:
         """Expanded uncertainty U = k u(y)."""
         return self._figure("expanded_uncertainty")
 
@@ -107,7 +112,7 @@ class Gum(_Figures):
         return self._pair("low", "high")
 
 
-class MonteCarlo(_Figures):
+class MonteCarlo(_Figures[Figure_co]):
     """One output by the Monte Carlo method (JCGM 101).
 
     With conditions every value is an array with one entry per row. Undefined values are NaN.
@@ -116,22 +121,22 @@ class MonteCarlo(_Figures):
     _method = "monte_carlo"
 
     @property
-    def trials(self) -> Figure:
+    def trials(self) -> Figure_co:
         """Number of trials."""
         return self._figure("trials")
 
     @property
-    def estimate(self) -> Figure:
+    def estimate(self) -> Figure_co:
         """Mean of the trials."""
         return self._figure("estimate")
 
     @property
-    def standard_uncertainty(self) -> Figure:
+    def standard_uncertainty(self) -> Figure_co:
         """Standard deviation of the trials."""
         return self._figure("standard_uncertainty")
 
     @property
-    def median(self) -> Figure:
+    def median(self) -> Figure_co:
         """Median of the trials."""
         return self._figure("median")
 
@@ -146,12 +151,12 @@ class MonteCarlo(_Figures):
         return self._pair("shortest_low", "shortest_high")
 
     @property
-    def skewness(self) -> Figure:
+    def skewness(self) -> Figure_co:
         """Skewness of the trials."""
         return self._figure("skewness")
 
     @property
-    def excess_kurtosis(self) -> Figure:
+    def excess_kurtosis(self) -> Figure_co:
         """Excess kurtosis of the trials."""
         return self._figure("excess_kurtosis")
 
@@ -196,29 +201,29 @@ class Budget(Mapping[str, Any]):
         return "\n".join("  ".join(c.rjust(w) for c, w in zip(row, widths)) for row in rows)
 
 
-class Output:
+class Output(Generic[Figure_co]):
     """One output of a result.
 
     It can be an input of another model, with its distribution and with its correlations with other
     outputs of the same result and with other results.
     """
 
-    def __init__(self, result: Result, name: str) -> None:
+    def __init__(self, result: Result[Figure_co], name: str) -> None:
         self._result = result
         self.name = name
         self.unit = dict(result._run.outputs)[name]
 
-    def _figure(self, name: str) -> Figure:
+    def _figure(self, name: str) -> Figure_co:
         column: npt.NDArray[np.float64] = self._result._run.column(self.name, name)
-        return column if self._result._run.swept else float(column[0])
+        return cast("Figure_co", column if self._result._run.swept else float(column[0]))
 
     @property
-    def gum(self) -> Gum:
+    def gum(self) -> Gum[Figure_co]:
         """By the law of propagation."""
         return Gum(self)
 
     @property
-    def monte_carlo(self) -> MonteCarlo:
+    def monte_carlo(self) -> MonteCarlo[Figure_co]:
         """By the Monte Carlo method."""
         return MonteCarlo(self)
 
@@ -242,13 +247,13 @@ class Output:
 
         With conditions an array of 1, 0 and NaN.
         """
-        found = self._figure("validation.gum_valid")
+        found: Any = self._figure("validation.gum_valid")
         if isinstance(found, float):
             return None if np.isnan(found) else bool(found)
-        return found
+        return np.asarray(found)
 
     @property
-    def conformance_probability(self) -> Figure:
+    def conformance_probability(self) -> Figure_co:
         """The probability of conformance to the output's tolerance; NaN without a tolerance."""
         return self._figure("conformity.probability")
 
@@ -283,7 +288,7 @@ class Output:
         )
 
 
-class Result(Mapping[str, Output]):
+class Result(Mapping[str, Output[Figure_co]]):
     """The result of a run: a mapping from the names of outputs to `Output` objects.
 
     A result is pickled as its model, seed and settings, and recomputed when it is needed, with the
@@ -292,7 +297,7 @@ class Result(Mapping[str, Output]):
 
     def __init__(
         self,
-        model: Model,
+        model: Model[Figure_co],
         options: Mapping[str, Any],
         run: _gumption.Run | None = None,
         identity: str | None = None,
@@ -311,7 +316,7 @@ class Result(Mapping[str, Output]):
             self._done = self.model._evaluated(self._options)
         return self._done
 
-    def __getitem__(self, name: str) -> Output:
+    def __getitem__(self, name: str) -> Output[Figure_co]:
         names = [output for output, _ in self._run.outputs]
         if name not in names:
             raise KeyError(f"there is no output {name!r}; there are {', '.join(names)}")

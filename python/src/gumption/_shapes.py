@@ -2,7 +2,8 @@
 
 Each function returns an `Input`. Keys of a model file's input without an argument of their own are
 further keyword arguments: ``about`` (the source of uncertainty in words), ``type`` (``"A"`` or
-``"B"``), ``group``, ``per`` (``"row"`` or the name of a condition), ``evidence`` and so on.
+``"B"``), ``group``, ``per`` (``"row"`` or the name of a condition), ``evidence`` and so on. A key
+that the distribution does not have is a `TypeError`.
 
 A width (``std``, ``half_width``, ``expanded``, ``scale``) is a number in the input's unit, or a
 specification such as ``"0.02 % + 2 uV"``. An estimate may be a formula of conditions as text.
@@ -10,16 +11,60 @@ specification such as ``"0.02 % + 2 uV"``. An estimate may be a formula of condi
 
 from __future__ import annotations
 
+import difflib
 import os
 import uuid
 from collections.abc import Iterable, Mapping
-from typing import Any, Union
+from typing import TYPE_CHECKING, Any, Literal, TypedDict, Union
 
 import numpy as np
 import numpy.typing as npt
 
+from gumption import _gumption
+
+if TYPE_CHECKING:
+    from typing_extensions import Unpack
+
 #: A number, or a text that a model file may have in its place.
-Value = Union[float, str]
+Value = Union[float, str, "np.floating[Any]", "np.integer[Any]"]
+
+
+class FurtherOfComponents(TypedDict, total=False):
+    """Keys of an input of any kind."""
+
+    about: str | None
+    type: Literal["A", "B"] | None
+    group: str | None
+    per: str | None
+
+
+class Further(FurtherOfComponents, total=False):
+    """Keys of an input of any distribution."""
+
+    evidence: npt.ArrayLike | str | None
+    limits: tuple[Value | None, Value | None] | list[Value | None] | None
+
+
+class FurtherOfWidth(Further, total=False):
+    """Keys of an input whose width may be a specification."""
+
+    resolution: Value | None
+    range: Value | None
+    full_scale: Value | None
+
+
+class FurtherOfLimits(FurtherOfWidth, total=False):
+    """Keys of an input within limits."""
+
+    semi_range: Value | None
+
+
+class FurtherOfReadings(Further, total=False):
+    """Keys of readings."""
+
+    resolution: Value | None
+    pooled: Mapping[str, Any] | None
+    evaluation: Literal["frequentist", "bayesian"] | None
 
 
 class Input:
@@ -89,13 +134,40 @@ def _shape(
     distribution: str | None, unit: str | None, fields: Mapping[str, Any], more: Mapping[str, Any]
 ) -> Input:
     spec = {} if distribution is None else {"distribution": distribution}
+    if more:
+        _check_keys(distribution, more, fields)
     for key, value in {**fields, **more}.items():
         if value is not None:
             spec[key] = plain(value)
     return Input(spec, unit)
 
 
-def constant(value: Value, unit: str | None = None, **more: Any) -> Input:
+def _check_keys(distribution: str | None, keys: Iterable[str], own: Iterable[str] = ()) -> None:
+    """Checks that an input of a distribution, or of components, has these keys.
+
+    Parameters
+    ----------
+    distribution : str or None
+        The distribution; `None` for an input with components.
+    keys : iterable of str
+        The keys that are given.
+    own : iterable of str
+        Keys of the constructor.
+    """
+    accepted = _gumption.input_keys(distribution)
+    if accepted is None:
+        # the distribution itself is unknown, which is the error of the model
+        return
+    for key in keys:
+        if key not in accepted:
+            kind = "with components" if distribution is None else f"of the distribution `{distribution}`"
+            offered = [*own, *(name for name in accepted if name not in {*own, "distribution"})]
+            near = difflib.get_close_matches(key, offered, 1)
+            right = f"did you mean `{near[0]}`?" if near else f"there are {', '.join(offered)}"
+            raise TypeError(f"an input {kind} has no key `{key}`; {right}")
+
+
+def constant(value: Value, unit: str | None = None, **more: Unpack[Further]) -> Input:
     """A quantity that is known exactly."""
     return _shape("constant", unit, {"value": value}, more)
 
@@ -109,7 +181,7 @@ def normal(
     k: float | None = None,
     p: float | None = None,
     dof: float | None = None,
-    **more: Any,
+    **more: Unpack[FurtherOfWidth],
 ) -> Input:
     """A normal distribution.
 
@@ -135,19 +207,6 @@ def normal(
     return _shape("normal", unit, fields, more)
 
 
-def _limits(
-    shape: str,
-    mean: Value | None,
-    half_width: Value | None,
-    unit: str | None,
-    lower: Value | None,
-    upper: Value | None,
-    more: Mapping[str, Any],
-) -> Input:
-    fields = {"mean": mean, "half_width": half_width, "lower": lower, "upper": upper}
-    return _shape(shape, unit, fields, more)
-
-
 def rectangular(
     mean: Value | None = None,
     half_width: Value | None = None,
@@ -156,13 +215,14 @@ def rectangular(
     lower: Value | None = None,
     upper: Value | None = None,
     dof: float | None = None,
-    **more: Any,
+    **more: Unpack[FurtherOfLimits],
 ) -> Input:
     """A rectangular (uniform) distribution, by estimate and half-width or by its limits.
 
     With `dof` the limits are not known exactly (JCGM 100, G.4.2; JCGM 101, 6.4.3).
     """
-    return _limits("rectangular", mean, half_width, unit, lower, upper, {"dof": dof, **more})
+    fields = {"mean": mean, "half_width": half_width, "lower": lower, "upper": upper, "dof": dof}
+    return _shape("rectangular", unit, fields, more)
 
 
 def triangular(
@@ -174,11 +234,13 @@ def triangular(
     upper: Value | None = None,
     mode: Value | None = None,
     dof: float | None = None,
-    **more: Any,
+    **more: Unpack[FurtherOfLimits],
 ) -> Input:
     """A triangular distribution; with limits the `mode` need not be in the middle."""
-    more = {"mode": mode, "dof": dof, **more}
-    return _limits("triangular", mean, half_width, unit, lower, upper, more)
+    fields = {
+        "mean": mean, "half_width": half_width, "lower": lower, "upper": upper, "mode": mode, "dof": dof,
+    }  # fmt: skip
+    return _shape("triangular", unit, fields, more)
 
 
 def trapezoidal(
@@ -190,11 +252,13 @@ def trapezoidal(
     lower: Value | None = None,
     upper: Value | None = None,
     dof: float | None = None,
-    **more: Any,
+    **more: Unpack[FurtherOfLimits],
 ) -> Input:
     """A symmetric trapezoidal distribution; `beta` is the ratio of its top's width to its base's."""
-    more = {"beta": beta, "dof": dof, **more}
-    return _limits("trapezoidal", mean, half_width, unit, lower, upper, more)
+    fields = {
+        "mean": mean, "half_width": half_width, "lower": lower, "upper": upper, "beta": beta, "dof": dof,
+    }  # fmt: skip
+    return _shape("trapezoidal", unit, fields, more)
 
 
 def arcsine(
@@ -204,14 +268,15 @@ def arcsine(
     *,
     lower: Value | None = None,
     upper: Value | None = None,
-    **more: Any,
+    **more: Unpack[FurtherOfLimits],
 ) -> Input:
     """An arcsine (U-shaped) distribution: a quantity that cycles sinusoidally."""
-    return _limits("arcsine", mean, half_width, unit, lower, upper, more)
+    fields = {"mean": mean, "half_width": half_width, "lower": lower, "upper": upper}
+    return _shape("arcsine", unit, fields, more)
 
 
 def curvilinear_trapezoid(
-    lower: Value, upper: Value, inexactness: Value, unit: str | None = None, **more: Any
+    lower: Value, upper: Value, inexactness: Value, unit: str | None = None, **more: Unpack[Further]
 ) -> Input:
     """A rectangular distribution whose limits are not known exactly (JCGM 101, 6.4.3)."""
     fields = {"lower": lower, "upper": upper, "inexactness": inexactness}
@@ -219,14 +284,14 @@ def curvilinear_trapezoid(
 
 
 def student_t(
-    mean: Value, scale: Value, dof: float, unit: str | None = None, **more: Any
+    mean: Value, scale: Value, dof: float, unit: str | None = None, **more: Unpack[FurtherOfWidth]
 ) -> Input:
     """A scaled and shifted t distribution; by the GUM its standard uncertainty is `scale`."""
     return _shape("t", unit, {"mean": mean, "scale": scale, "dof": dof}, more)
 
 
 def readings(
-    values: npt.ArrayLike, unit: str | None = None, *, paired: bool | None = None, **more: Any
+    values: npt.ArrayLike, unit: str | None = None, *, paired: bool | None = None, **more: Unpack[FurtherOfReadings]
 ) -> Input:
     """Repeated readings (Type A): their mean, s/sqrt(n), and n - 1 degrees of freedom.
 
@@ -245,17 +310,17 @@ def readings(
     return _shape("readings", unit, fields, more)
 
 
-def exponential(mean: Value, unit: str | None = None, **more: Any) -> Input:
+def exponential(mean: Value, unit: str | None = None, **more: Unpack[Further]) -> Input:
     """An exponential distribution (JCGM 101, 6.4.10)."""
     return _shape("exponential", unit, {"mean": mean}, more)
 
 
-def gamma(shape: float, rate: float, unit: str | None = None, **more: Any) -> Input:
+def gamma(shape: float, rate: float, unit: str | None = None, **more: Unpack[Further]) -> Input:
     """A gamma distribution; `rate` is in 1/unit."""
     return _shape("gamma", unit, {"shape": shape, "rate": rate}, more)
 
 
-def lognormal(mean: Value, std: Value, unit: str | None = None, **more: Any) -> Input:
+def lognormal(mean: Value, std: Value, unit: str | None = None, **more: Unpack[FurtherOfWidth]) -> Input:
     """A log-normal distribution; `mean` and `std` are those of the quantity itself."""
     return _shape("lognormal", unit, {"mean": mean, "std": std}, more)
 
@@ -267,29 +332,29 @@ def beta(
     *,
     lower: Value | None = None,
     upper: Value | None = None,
-    **more: Any,
+    **more: Unpack[Further],
 ) -> Input:
     """A beta distribution between 0 and 1, or between limits."""
     fields = {"alpha": alpha, "beta": beta, "lower": lower, "upper": upper}
     return _shape("beta", unit, fields, more)
 
 
-def log_uniform(lower: Value, upper: Value, unit: str | None = None, **more: Any) -> Input:
+def log_uniform(lower: Value, upper: Value, unit: str | None = None, **more: Unpack[Further]) -> Input:
     """A distribution whose logarithm is rectangular, between limits above 0."""
     return _shape("log-uniform", unit, {"lower": lower, "upper": upper}, more)
 
 
-def poisson_count(count: int, unit: str | None = None, **more: Any) -> Input:
+def poisson_count(count: int, unit: str | None = None, **more: Unpack[Further]) -> Input:
     """The expected number of events for a count (JCGM 101, 6.4.11)."""
     return _shape("poisson-count", unit, {"count": count}, more)
 
 
-def samples(values: npt.ArrayLike, unit: str | None = None, **more: Any) -> Input:
+def samples(values: npt.ArrayLike, unit: str | None = None, **more: Unpack[Further]) -> Input:
     """An empirical distribution: values that are drawn with replacement."""
     return _shape("samples", unit, {"values": np.asarray(values, dtype=float).tolist()}, more)
 
 
-def result(file: str | os.PathLike[str], output: str, unit: str | None = None, **more: Any) -> Input:
+def result(file: str | os.PathLike[str], output: str, unit: str | None = None, **more: Unpack[Further]) -> Input:
     """An output of a saved result (``Result.save``, ``gumption run --save``)."""
     import hashlib
 
@@ -301,7 +366,7 @@ def result(file: str | os.PathLike[str], output: str, unit: str | None = None, *
     return Input(found.spec, unit, [(name, content)])
 
 
-def components(mean: Value | None, parts: Mapping[str, Input], unit: str | None = None, **more: Any) -> Input:
+def components(mean: Value | None, parts: Mapping[str, Input], unit: str | None = None, **more: Unpack[FurtherOfComponents]) -> Input:
     """Several contributions to one quantity, by their names: calibration, resolution, drift.
 
     Parameters
@@ -329,4 +394,6 @@ def known(unit: str | None = None, **keys: Any) -> Input:
     >>> gumption.known("V", distribution="normal", mean=5, std="0.02 % + 2 uV").spec
     {'distribution': 'normal', 'mean': 5, 'std': '0.02 % + 2 uV'}
     """
+    if "distribution" in keys or "components" in keys:
+        _check_keys(keys.get("distribution"), keys)
     return _shape(None, unit, keys, {})
