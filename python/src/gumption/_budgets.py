@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 import numpy.typing as npt
 
-from gumption import _gumption
+from gumption import _gumption, _notebook
 from gumption._check import check_rows
 from gumption._measurement import Measurement
 from gumption._model import Model
@@ -67,6 +67,15 @@ class OutputBudgets:
     def __len__(self) -> int:
         return len(self.estimate)
 
+    def _table(self) -> str:
+        shown = _notebook.estimates(
+            {"row": range(len(self))}, self.estimate, self.standard_uncertainty, self.expanded_uncertainty
+        )
+        return _notebook.title(f"{self.name} in {self.unit}") + shown
+
+    def _repr_html_(self) -> str:
+        return _notebook.whole([self._table()])
+
     def __repr__(self) -> str:
         return f"<gumption.OutputBudgets: {len(self)} of {self.name} in {self.unit}>"
 
@@ -105,6 +114,9 @@ class _All(Mapping[str, OutputBudgets]):
 
     def __len__(self) -> int:
         return len(self._outputs)
+
+    def _repr_html_(self) -> str:
+        return _notebook.whole([of._table() for of in self._outputs.values()])
 
     def __repr__(self) -> str:
         return f"<gumption.budgets: {', '.join(map(repr, self._outputs.values()))}>"

@@ -14,7 +14,7 @@ from typing import Any, overload
 import numpy as np
 import numpy.typing as npt
 
-from gumption import _gumption
+from gumption import _gumption, _notebook
 from gumption._arguments import Arguments
 from gumption._block import BlockFunction, Way
 from gumption._check import checked
@@ -161,6 +161,36 @@ class Measurement:
                 f"the function gave {len(found)} values, but the outputs are {', '.join(names)}"
             )
         return dict(zip(names, found))
+
+    def latex(self) -> str:
+        """The traced equations in LaTeX.
+
+        Raises
+        ------
+        ModelError
+            If the function could not be traced.
+        """
+        if self.equations is None:
+            raise _gumption.ModelError(f"`{self.title}` could not be traced ({self.why_not_traced})")
+        return _notebook.latex_equations(self.equations)
+
+    def _repr_latex_(self) -> str | None:
+        return None if self.equations is None else self.latex()
+
+    def _repr_html_(self) -> str:
+        shown = [_notebook.title(self.title)]
+        if self.equations is not None:
+            lines = [[_notebook.equation(name, formula)] for name, formula in self.equations.items()]
+            shown.append(_notebook.table(["equation"], lines))
+        else:
+            why = _notebook.table(["computed by Python, as it is not traced"], [[self.why_not_traced]])
+            shown.append(why)
+        for heading, units in (
+            ("input", self.inputs), ("condition", self.conditions), ("output", self.outputs),
+        ):  # fmt: skip
+            if units:
+                shown.append(_notebook.table([heading, "unit"], units.items()))
+        return _notebook.whole(shown)
 
     def __repr__(self) -> str:
         how = "traced" if self.equations is not None else "not traced"

@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING, Any, Generic, overload
 import numpy as np
 import numpy.typing as npt
 
-from gumption import _gumption
+from gumption import _gumption, _notebook
 from gumption._frames import condition_file, readings_file
 from gumption._joint import Joint, identity_of
 from gumption._quantities import as_input, as_known, shared, unit_of
@@ -350,6 +350,41 @@ class Model(Generic[Figure_co]):
                 f"`{what}` needs a model of formulas, but the function of `{self.title}` could not be "
                 "traced, or not rightly; call the function with other inputs"
             )
+
+    def _equations(self) -> dict[str, str]:
+        """The formulas; none of a typed model and of a function that is not traced."""
+        found: dict[str, str] = {} if self._function is not None else self.to_dict().get("equations", {})
+        return found
+
+    def latex(self) -> str:
+        """The equations in LaTeX.
+
+        Raises
+        ------
+        ModelError
+            If the model has no equations.
+        """
+        if not (equations := self._equations()):
+            raise _gumption.ModelError(f"`{self.title}` has no equations")
+        return _notebook.latex_equations(equations)
+
+    def _repr_latex_(self) -> str | None:
+        return self.latex() if self._equations() else None
+
+    def _repr_html_(self) -> str:
+        file = self.to_dict()
+        shown = [_notebook.title(self.title)]
+        if equations := self._equations():
+            lines = [[_notebook.equation(name, formula)] for name, formula in equations.items()]
+            shown.append(_notebook.table(["equation"], lines))
+        elif self._function is not None:
+            shown.append("<div>computed by a Python function</div>")
+        shown.append(_notebook.inputs(file.get("inputs", {})))
+        shown.append(_notebook.table(["output", "unit"], self.outputs.items()))
+        if self.conditions:
+            shown.append(_notebook.table(["condition", "unit"], self.conditions.items()))
+            shown.append(f"<div>{self.rows} rows of conditions</div>")
+        return _notebook.whole(shown)
 
     def __repr__(self) -> str:
         inputs, outputs = ", ".join(self.inputs), ", ".join(self.outputs)

@@ -3,18 +3,18 @@
 from __future__ import annotations
 
 import hashlib
-import html
 import json
 import os
 import uuid
-from collections.abc import Iterator, Mapping
+from collections.abc import Callable, Iterator, Mapping
 from typing import TYPE_CHECKING, Any, Generic, TypeVar, cast
 
 import numpy as np
 import numpy.typing as npt
 
-from gumption import _gumption
+from gumption import _gumption, _notebook
 from gumption._frames import frame_of
+from gumption._notebook import Page
 from gumption._samples import Samples, SampleTable
 from gumption._shapes import Input
 
@@ -43,14 +43,6 @@ def format_of(path: str | os.PathLike[str]) -> str:
         known = ", ".join(FORMATS)
         raise _gumption.ModelError(f"`{os.fspath(path)}`: the extension is none of {known}")
     return FORMATS[extension]
-
-
-def framed(page: str) -> str:
-    """A page in its own frame, so that its style and that of a notebook do not interfere."""
-    return (
-        f'<iframe srcdoc="{html.escape(page)}" style="width:100%;height:36em;border:0" '
-        'title="gumption"></iframe>'
-    )
 
 
 class _Figures(Generic[Figure_co]):
@@ -169,8 +161,15 @@ class Budget(Mapping[str, Any]):
     ``group``, ``dof``, ``sensitivity``, ``contribution`` and ``share``; they are attributes as well.
     """
 
-    def __init__(self, columns: Mapping[str, Any]) -> None:
+    def __init__(self, columns: Mapping[str, Any], shown: str | Callable[[], str] = "") -> None:
         self._columns = dict(columns)
+        # the table of the page, which is made when it is wanted
+        self._shown = shown
+
+    def _table(self) -> str:
+        if not isinstance(self._shown, str):
+            self._shown = self._shown()
+        return self._shown
 
     def __getitem__(self, name: str) -> Any:
         return self._columns[name]
@@ -191,6 +190,19 @@ class Budget(Mapping[str, Any]):
         import pandas
 
         return pandas.DataFrame(self._columns).set_index("input")
+
+    def latex(self) -> str:
+        """The budget as an array of LaTeX, rounded as on the pages."""
+        return _notebook.latex_table(self._table())
+
+    def _repr_html_(self) -> str:
+        return _notebook.whole([_notebook.light(self._table())])
+
+    def _repr_latex_(self) -> str:
+        return self.latex()
+
+    def __reduce__(self) -> Any:
+        return Budget, (self._columns, self._table())
 
     def __repr__(self) -> str:
         shown = ("input", "estimate", "standard_uncertainty", "sensitivity", "contribution", "share")
@@ -239,7 +251,12 @@ class Output(Generic[Figure_co]):
             raise _gumption.ModelError(
                 f"`{self.name}` has no budget: a sensitivity coefficient is not finite"
             )
-        return Budget(columns)
+        return Budget(columns, lambda: self._page_parts(row)[2])
+
+    def _page_parts(self, row: int = 0) -> tuple[str, str, str, str, str]:
+        """Title, result, budget, conclusions and comparison of the methods, as on the page."""
+        place = list(self._result).index(self.name)
+        return self._result._run.page_parts(row)[place]
 
     @property
     def gum_valid(self) -> bool | None | npt.NDArray[np.float64]:
@@ -270,6 +287,39 @@ class Output(Generic[Figure_co]):
         output = found["outputs"][self.name]
         assert isinstance(output, dict)
         return output
+
+    def latex(self, row: int = 0) -> str:
+        """The estimate with its standard uncertainty in the mathematical mode of LaTeX.
+
+        Parameters
+        ----------
+        row : int, default 0
+            The row of conditions, counted from 0.
+        """
+        x, u = (
+            float(np.atleast_1d(np.asarray(figure))[row])
+            for figure in (self.gum.estimate, self.gum.standard_uncertainty)
+        )
+        return _notebook.latex_value(self.name, self.unit, x, u)
+
+    def _sweep(self) -> str:
+        """A table of the rows of conditions."""
+        units = dict(self._result._run.conditions)
+        before = {f"{name} in {units[name]}": values for name, values in self._result.conditions.items()}
+        figures: Any = self.gum
+        return _notebook.title(f"{self.name} in {self.unit}") + _notebook.estimates(
+            before, figures.estimate, figures.standard_uncertainty, figures.expanded_uncertainty
+        )
+
+    def _repr_html_(self) -> str:
+        if self._result._run.swept:
+            return _notebook.whole([self._sweep()])
+        name, *parts = self._page_parts()
+        return _notebook.whole([_notebook.title(name), *map(_notebook.light, parts)])
+
+    def _repr_latex_(self) -> str | None:
+        # an array of estimates is no value
+        return None if self._result._run.swept else f"$${self.latex()}$$"
 
     def _as_input(self) -> Input:
         text = self._result.saved()
@@ -432,7 +482,9 @@ class Result(Mapping[str, Output[Figure_co]]):
         else:
             _write(path, self.to(format_of(path)))
 
-    def plot(self, outputs: str | list[str] | None = None, *, row: int | None = None) -> Any:
+    def plot(
+        self, outputs: str | list[str] | None = None, *, row: int | None = None, ax: Any = None
+    ) -> Any:
         """Draw the distributions with the coverage intervals of both methods, or with conditions the
         estimates with their expanded uncertainties.
 
@@ -442,18 +494,40 @@ class Result(Mapping[str, Output[Figure_co]]):
             The outputs; all by default.
         row : int, optional
             With conditions, the row whose distributions are drawn.
+        ax : matplotlib.axes.Axes or array of these, optional
+            Where to draw: one for each output. A new figure has them unless given.
 
         Returns
         -------
         matplotlib.figure.Figure
+            The figure of the axes.
+
+        Raises
+        ------
+        ValueError
+            If the number of axes is another than that of the outputs.
         """
         from gumption._plot import plot
 
         names = [outputs] if isinstance(outputs, str) else outputs
-        return plot(self, names if names is not None else list(self), row)
+        return plot(self, names if names is not None else list(self), row, ax)
+
+    def page(self) -> Page:
+        """The whole page with its figures, which a notebook shows in a frame."""
+        return Page(self.to("html").decode())
 
     def _repr_html_(self) -> str:
-        return framed(self.to("html").decode())
+        run = self._run
+        rest = "`page()` shows all, with its figures"
+        if run.swept:
+            return _notebook.whole([output._sweep() for output in self.values()], rest)
+        parts = run.page_parts(0)
+        shown = [[_notebook.title(name) + _notebook.light(said)] for name, said, *_ in parts]
+        budgets = [_notebook.light(budget) for _, _, budget, *_ in parts]
+        # of many outputs the results alone
+        if sum(map(len, budgets)) + sum(len(own[0]) for own in shown) <= _notebook.MOST:
+            shown = [[*own, budget] for own, budget in zip(shown, budgets)]
+        return _notebook.whole([part for own in shown for part in own], rest)
 
     def __str__(self) -> str:
         return self.to("table").decode()

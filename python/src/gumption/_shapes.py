@@ -110,6 +110,16 @@ class Input:
         """The input as in a model file; `unit` is used if it has none of its own."""
         return {"unit": self.unit if self.unit is not None else unit, **self.spec}
 
+    def _repr_html_(self) -> str:
+        from gumption import _notebook
+
+        spec = {key: value for key, value in self.spec.items() if key != "components"}
+        lines = [*spec.items(), *([("unit", self.unit)] if self.unit is not None else [])]
+        shown = [_notebook.table(["input", ""], [(key, _notebook.stated(value)) for key, value in lines])]
+        if parts := self.spec.get("components"):
+            shown.append(_notebook.inputs({part["name"]: part for part in parts}))
+        return _notebook.whole(shown)
+
     def __repr__(self) -> str:
         return f"gumption.Input({self.spec!r}, unit={self.unit!r})"
 
