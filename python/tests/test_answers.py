@@ -234,6 +234,20 @@ class TestArguments:
             gu.gap(file)
         assert "inputs.a.sdt" in [error["argument"] for error in raised.value.errors]
 
+    def test_of_tables(self) -> None:
+        by_row = gu.model(inputs={"a": "V"}, outputs={"y": "V*Hz"}, conditions={"f": "Hz"})(
+            lambda a, f: a * f
+        )
+        said = "^`conditions`: row 2, column `f`: `nan` is not a finite number$"
+        with pytest.raises(gu.ModelError, match=said) as raised:
+            by_row(a=(1, 0.1), conditions={"f": [1.0, math.nan]})
+        assert raised.value.errors[0]["argument"] == "conditions"
+        model = by_row(a=gu.readings([1, 2, 3]), conditions={"f": [1.0]})
+        with pytest.raises(gu.ModelError, match="^`readings`: there is no input `b`"):
+            model.run(readings={"b": [1.0, 2.0]})
+        with pytest.raises(gu.ModelError, match="^`table`, row 2: "):
+            gu.compare({"label": ["A", "B"], "x1": [1, 1], "U1": [1, -1], "x2": [1, 1], "U2": [1, 1]})
+
     def test_of_a_file_that_was_changed(self) -> None:
         """What stands in the file has a place there; what replaces it has a name."""
         model = gu.load(MODELS / "inclined_plane.json")

@@ -468,7 +468,9 @@ class TestKeys:
         assert figures(known) == (5.0, 0.002)
         assert gu.known(distribution="uniform", mean=1, semi_range=0.1).spec["semi_range"] == 0.1
 
-    @pytest.mark.parametrize("number", [np.float32(2), np.int64(2), np.array(2.0), np.array(2), np.float64(2)])
+    @pytest.mark.parametrize(
+        "number", [np.float32(2), np.int64(2), np.array(2.0), np.array(2), np.float64(2)]
+    )
     def test_numbers_of_numpy(self, number: Any) -> None:
         """2 is exact in every kind of number; u = 2."""
         assert figures(number) == (2.0, 0.0)

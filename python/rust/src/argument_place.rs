@@ -22,8 +22,8 @@ pub(crate) enum Argument {
     Function { name: String, keys: Keys },
     /// In a dictionary, which may have a name.
     Dictionary { name: Option<String>, keys: Keys },
-    /// In a table; the row counts from 0, and the headings have none.
-    Table { row: Option<usize> },
+    /// In a table, by the name of the argument; the headings are in no row.
+    Table { name: String, row: Option<usize> },
 }
 
 impl Argument {
@@ -32,7 +32,7 @@ impl Argument {
         let path = match self {
             Self::Function { keys, .. } => joined(&of_function(keys)),
             Self::Dictionary { keys, .. } => joined(keys),
-            Self::Table { .. } => "table".to_owned(),
+            Self::Table { name, .. } => name.clone(),
         };
         (!path.is_empty()).then_some(path)
     }
@@ -56,8 +56,11 @@ impl Argument {
                 let place = self.path().map_or_else(String::new, |path| named(&path));
                 name + &place + message
             }
-            Self::Table { row: None } => format!("`table`: {message}"),
-            Self::Table { row: Some(row) } => format!("`table`, row {row} (from 0): {message}"),
+            // a message about a cell says which row it is
+            Self::Table { name, row: Some(row) } if !message.starts_with("row ") => {
+                format!("`{name}`, row {row}: {message}")
+            }
+            Self::Table { name, .. } => named(name) + message,
         }
     }
 }
@@ -85,15 +88,35 @@ fn of_function(keys: &[String]) -> Vec<&str> {
     }
 }
 
+/// The files that Python makes of tables, each for an argument of that name.
+const TABLES: [(&str, &str); 3] =
+    [("conditions.csv", "conditions"), ("readings.csv", "readings"), ("data.csv", "data")];
+
+/// The name of a table that is given alone.
+const ALONE: &str = "table";
+
 /// Finds places in texts; a text is read once.
-#[derive(Default)]
-pub(crate) struct Places {
+pub(crate) struct Places<'h> {
+    held: &'h [&'h str],
     last: Option<(Arc<SourceText>, Option<Node>)>,
 }
 
-impl Places {
+impl<'h> Places<'h> {
+    /// Texts among which are these files, which Python gave.
+    pub(crate) fn among(held: &'h [&'h str]) -> Self {
+        Self { held, last: None }
+    }
+
     /// The place of a byte of a text; `None` in a text that somebody wrote.
     pub(crate) fn of(&mut self, source: &Arc<SourceText>, byte: usize) -> Option<Argument> {
+        let (line, _) = source.position(byte);
+        let row = line.checked_sub(1).filter(|&row| row > 0);
+        let table = TABLES.iter().find(|(file, _)| *file == source.name);
+        if let Some((file, name)) = table
+            && self.held.contains(file)
+        {
+            return Some(Argument::Table { name: (*name).to_owned(), row });
+        }
         let is_written = source.name == WRITTEN;
         let name = source.name.strip_prefix('<')?.strip_suffix('>').filter(|_| !is_written)?;
         if !self.last.as_ref().is_some_and(|(known, _)| Arc::ptr_eq(known, source)) {
@@ -101,8 +124,7 @@ impl Places {
         }
         let root = self.last.as_ref().and_then(|(_, root)| root.as_ref());
         let Some(root) = root else {
-            let (line, _) = source.position(byte);
-            return Some(Argument::Table { row: line.checked_sub(2) });
+            return Some(Argument::Table { name: ALONE.to_owned(), row });
         };
         let mut keys = Keys::new();
         follow(root, byte, &mut keys);

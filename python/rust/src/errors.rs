@@ -28,11 +28,16 @@ create_exception!(
 
 /// A failure of the command line.
 pub(crate) fn failed(py: Python<'_>, failure: &Failure) -> PyErr {
+    failed_with(py, failure, &[])
+}
+
+/// The same where files are held that Python may have made of tables.
+pub(crate) fn failed_with(py: Python<'_>, failure: &Failure, held: &[&str]) -> PyErr {
     match failure {
         Failure::System(_) => PyOSError::new_err(failure.to_string().trim_end().to_owned()),
         Failure::Argument(message) => refused(py, plain(message), &[]),
         Failure::Diagnostics(found) => {
-            let mut places = Places::default();
+            let mut places = Places::among(held);
             let all: Vec<Found<'_>> =
                 found.0.iter().map(|one| (one, places.of(&one.source, one.span.start))).collect();
             refused(py, told(&all), &all)

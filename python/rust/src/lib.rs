@@ -31,7 +31,10 @@ fn application() -> &'static gumption::Application {
 #[pymodule(gil_used = false)]
 fn _gumption(module: &Bound<'_, PyModule>) -> PyResult<()> {
     module.add("__version__", env!("CARGO_PKG_VERSION"))?;
-    module.add("ModelError", module.py().get_type::<errors::ModelError>())?;
+    let error = module.py().get_type::<errors::ModelError>();
+    // what Python raises itself is about an argument, and has none
+    error.setattr("errors", pyo3::types::PyList::empty(module.py()))?;
+    module.add("ModelError", error)?;
     module.add_class::<diagnosis::SimulatedGap>()?;
     module.add_class::<diagnosis::SimulatorGap>()?;
     module.add_class::<model::Model>()?;

@@ -18,7 +18,7 @@ use pyo3::types::{PyDict, PyTuple};
 use crate::application;
 use crate::coverage;
 use crate::draws;
-use crate::errors::{argument, failed};
+use crate::errors::{argument, failed, failed_with};
 use crate::function::PythonFunction;
 use crate::parts::Parts;
 use crate::run::{Note, Ran, Run, notes};
@@ -200,7 +200,9 @@ impl Model {
         };
         // on threads of this process: a forked child has none of its parent's
         let read = supervised_within(py, &AtomicBool::new(false), read)?;
-        let file = read.map_err(|found| failed(py, &Failure::Diagnostics(found)))?;
+        let given = source.held.iter().chain(&source.readings).map(|(name, _)| name.as_str());
+        let given: Vec<&str> = given.collect();
+        let file = read.map_err(|found| failed_with(py, &Failure::Diagnostics(found), &given))?;
         let provenance = Provenance::of(&file.source.text, &file.files);
         Ok(Self {
             source: Arc::new(source),

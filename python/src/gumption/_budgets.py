@@ -86,6 +86,12 @@ class _All(Mapping[str, OutputBudgets]):
     Of a model of one output the columns are attributes as well.
     """
 
+    def __init__(self, outputs: Mapping[str, OutputBudgets]) -> None:
+        self._outputs = dict(outputs)
+
+    def __getitem__(self, name: str) -> OutputBudgets:
+        return self._outputs[name]
+
     if TYPE_CHECKING:
         name: str
         unit: str
@@ -96,18 +102,13 @@ class _All(Mapping[str, OutputBudgets]):
         coverage_factor: Column
         sensitivities: dict[str, Column]
         contributions: dict[str, Column]
+    else:
 
-    def __init__(self, outputs: Mapping[str, OutputBudgets]) -> None:
-        self._outputs = dict(outputs)
-
-    def __getitem__(self, name: str) -> OutputBudgets:
-        return self._outputs[name]
-
-    def __getattr__(self, name: str) -> Any:
-        # of a model of one output the columns are at hand at once
-        if not name.startswith("_") and len(self._outputs) == 1:
-            return getattr(next(iter(self._outputs.values())), name)
-        raise AttributeError(name)
+        def __getattr__(self, name: str) -> Any:
+            # of a model of one output the columns are at hand at once
+            if not name.startswith("_") and len(self._outputs) == 1:
+                return getattr(next(iter(self._outputs.values())), name)
+            raise AttributeError(name)
 
     def __iter__(self) -> Iterator[str]:
         return iter(self._outputs)

@@ -205,7 +205,7 @@ class Model(Generic[Figure_co]):
                 )
             return Result(model, given, model._evaluated(given, progress))
         if parts is not None and parts < 1:
-            raise _gumption.ModelError("`parts`: a whole number from 1 is needed")
+            raise _gumption.ModelError(f"`parts={parts}`: a whole number from 1 is needed")
         from gumption._executors import run_on
 
         with model._bar(given, progress) as told:

@@ -68,9 +68,7 @@ def table(headings: Sequence[str], lines: Iterable[Sequence[Any]], numbers: Sequ
     """
     styles = [_RIGHT if heading in numbers else _LEFT for heading in headings]
     head = "".join(f"<th{style}>{html.escape(of)}</th>" for style, of in zip(styles, headings))
-    rows = [
-        "".join(f"<td{style}>{_cell(cell)}</td>" for style, cell in zip(styles, line)) for line in lines
-    ]
+    rows = ["".join(f"<td{style}>{_cell(cell)}</td>" for style, cell in zip(styles, line)) for line in lines]
     body = "".join(f"<tr>{row}</tr>" for row in rows)
     return f"<table><thead><tr>{head}</tr></thead><tbody>{body}</tbody></table>"
 

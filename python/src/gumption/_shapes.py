@@ -301,7 +301,11 @@ def student_t(
 
 
 def readings(
-    values: npt.ArrayLike, unit: str | None = None, *, paired: bool | None = None, **more: Unpack[FurtherOfReadings]
+    values: npt.ArrayLike,
+    unit: str | None = None,
+    *,
+    paired: bool | None = None,
+    **more: Unpack[FurtherOfReadings],
 ) -> Input:
     """Repeated readings (Type A): their mean, s/sqrt(n), and n - 1 degrees of freedom.
 
@@ -349,7 +353,9 @@ def beta(
     return _shape("beta", unit, fields, more)
 
 
-def log_uniform(lower: Value, upper: Value, unit: str | None = None, **more: Unpack[Further]) -> Input:
+def log_uniform(
+    lower: Value, upper: Value, unit: str | None = None, **more: Unpack[Further]
+) -> Input:
     """A distribution whose logarithm is rectangular, between limits above 0."""
     return _shape("log-uniform", unit, {"lower": lower, "upper": upper}, more)
 
@@ -364,7 +370,9 @@ def samples(values: npt.ArrayLike, unit: str | None = None, **more: Unpack[Furth
     return _shape("samples", unit, {"values": np.asarray(values, dtype=float).tolist()}, more)
 
 
-def result(file: str | os.PathLike[str], output: str, unit: str | None = None, **more: Unpack[Further]) -> Input:
+def result(
+    file: str | os.PathLike[str], output: str, unit: str | None = None, **more: Unpack[Further]
+) -> Input:
     """An output of a saved result (``Result.save``, ``gumption run --save``)."""
     import hashlib
 
@@ -376,7 +384,12 @@ def result(file: str | os.PathLike[str], output: str, unit: str | None = None, *
     return Input(found.spec, unit, [(name, content)])
 
 
-def components(mean: Value | None, parts: Mapping[str, Input], unit: str | None = None, **more: Unpack[FurtherOfComponents]) -> Input:
+def components(
+    mean: Value | None,
+    parts: Mapping[str, Input],
+    unit: str | None = None,
+    **more: Unpack[FurtherOfComponents],
+) -> Input:
     """Several contributions to one quantity, by their names: calibration, resolution, drift.
 
     Parameters
