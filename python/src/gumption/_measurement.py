@@ -546,7 +546,7 @@ def model(
     {'density': '4*mass/(pi*diameter^2*height)'}
     >>> m = cylinder(mass=gumption.normal(21.32, 0.01), diameter=(12.0, 0.005), height=24.0)
     >>> round(m.run(trials=0)["density"].gum.estimate, 1)
-    7854.7
+    7854.6
     """
 
     def decorate(function: Callable[..., Any]) -> Measurement:
