@@ -5,6 +5,7 @@ from __future__ import annotations
 import json
 import math
 import pickle
+import re
 from pathlib import Path
 from typing import Any
 
@@ -120,7 +121,6 @@ class TestSamples:
 
 
 def test_pages(plane: gu.Result, tmp_path: Path) -> None:
-    assert plane._repr_html_().startswith("<iframe srcdoc=")
     assert "Monte Carlo" in str(plane)
     for name in ("a.html", "a.xlsx", "a.md", "a.tex", "a.txt", "a.json", "a.csv", "a.npy"):
         plane.write(tmp_path / name)
@@ -150,6 +150,117 @@ def test_to_pandas(plane: gu.Result) -> None:
     assert frame.loc["a_x", "unit"] == "m/s^2"
 
 
+def names_keywords(error: gu.ModelError, options: dict[str, Any]) -> None:
+    """Whether a message names an option as an argument of Python, and not as one of the command line."""
+    text = str(error)
+    assert any(re.search(rf"`{name}[`=]", text) for name in options), text
+    assert "--" not in text and "Usage" not in text and not text.startswith(("error", "gumption")), text
+
+
+@gu.model(inputs={"mass": "g", "side": "mm"}, outputs={"rho": "kg/m^3"})
+def cube(mass: Any, side: Any) -> Any:
+    return mass / side**3
+
+
+#: An argument of `cube` that is wrong, what the message says of it, and its path.
+WRONG_ARGUMENTS = {
+    "negative": ({"mass": gu.normal(1, -0.1)}, "argument `mass`: `std` is -0.1", "mass.std"),
+    "incomplete": ({"mass": gu.normal(1)}, "argument `mass`: an input needs the key `std`", "mass"),
+    "formula": ({"mass": gu.normal("x", 0.1)}, "argument `mass`, `mean`: `x` is not defined", "mass.mean"),
+    "mapping": (
+        {"side": {"distribution": "normal", "mean": 1, "sdt": 0.1}},
+        "argument `side`: unknown key `sdt`.*`std`",
+        "side.sdt",
+    ),
+    "component": (
+        {"mass": gu.components(1, {"a": gu.normal(0, 0.1), "b": gu.normal(0, -0.1)})},
+        "argument `mass`, `components.b.std`: `std` is -0.1",
+        "mass.components.b.std",
+    ),
+    "trials": ({"trials": -1}, "argument `trials`: -1 is not", "trials"),
+    "coverage": ({"coverage_probability": 2}, "argument `coverage_probability`: ", "coverage_probability"),
+    "correlations": (
+        {"correlations": [("mass", "side", 0.1), ("mass", "height", 0.5)]},
+        r"argument `correlations\[1\]\[1\]`: there is no input `height`",
+        "correlations[1][1]",
+    ),
+    "tolerance": (
+        {"tolerance": {"rho": {"lower": 3, "upper": 1}}},
+        "argument `tolerance`, `rho`: .* 3 is not below the upper limit 1",
+        "tolerance.rho",
+    ),
+}
+
+
+class TestArguments:
+    """Errors of models that Python makes name what was given to Python."""
+
+    @pytest.mark.parametrize("name", WRONG_ARGUMENTS)
+    def test_of_functions(self, name: str) -> None:
+        wrong, said, path = WRONG_ARGUMENTS[name]
+        with pytest.raises(gu.ModelError, match=rf"^`cube`: {said}") as raised:
+            cube(**{"mass": (1, 0.1), "side": (10, 0.1), **wrong})
+        # no place in a text that nobody wrote
+        assert "\n" not in str(raised.value) and "<cube>" not in str(raised.value)
+        (error,) = raised.value.errors
+        assert error["argument"] == path and error["file"] == "<cube>" and error["line"] > 1
+
+    def test_of_several(self) -> None:
+        with pytest.raises(gu.ModelError) as raised:
+            cube(mass=gu.normal(1, -0.1), side=gu.normal(10, -0.1))
+        assert [error["argument"] for error in raised.value.errors] == ["mass.std", "side.std"]
+        first, second = str(raised.value).splitlines()
+        assert first.startswith("`cube`: argument `mass`: ") and second.startswith("`cube`: argument `side`")
+        again = pickle.loads(pickle.dumps(raised.value))
+        assert str(again) == str(raised.value) and again.errors == raised.value.errors
+
+    def test_of_replacements(self) -> None:
+        model = cube(mass=(1, 0.1), side=10)
+        with pytest.raises(gu.ModelError, match="^`cube`: argument `mass`: "):
+            model.with_inputs(mass=gu.normal(1, -1))
+        with pytest.raises(gu.ModelError, match="^`cube`: .*did you mean `mass`"):
+            model.set(mas=3)
+
+    def test_of_dictionaries(self) -> None:
+        file = {"inputs": {"a": {"unit": "V", "distribution": "normal", "mean": 1, "sdt": 0.1}},
+                "equations": {"y": "a*b"}, "outputs": {"y": {"unit": "V"}}}  # fmt: skip
+        with pytest.raises(gu.ModelError, match="^`inputs.a.sdt`: unknown key `sdt`") as raised:
+            gu.from_dict(file)
+        assert [error["argument"] for error in raised.value.errors] == ["inputs.a.sdt", "equations.y"]
+        with pytest.raises(gu.ModelError, match="^`gauge`: `inputs.a.sdt`: "):
+            gu.from_dict(file, name="gauge")
+        assert gu.check(file)["ok"] is False
+        with pytest.raises(gu.ModelError, match="(?m)^`inputs.a.sdt`: ") as raised:
+            gu.gap(file)
+        assert "inputs.a.sdt" in [error["argument"] for error in raised.value.errors]
+
+    def test_of_tables(self) -> None:
+        by_row = gu.model(inputs={"a": "V"}, outputs={"y": "V*Hz"}, conditions={"f": "Hz"})(
+            lambda a, f: a * f
+        )
+        said = "^`conditions`: row 2, column `f`: `nan` is not a finite number$"
+        with pytest.raises(gu.ModelError, match=said) as raised:
+            by_row(a=(1, 0.1), conditions={"f": [1.0, math.nan]})
+        assert raised.value.errors[0]["argument"] == "conditions"
+        model = by_row(a=gu.readings([1, 2, 3]), conditions={"f": [1.0]})
+        with pytest.raises(gu.ModelError, match="^`readings`: there is no input `b`"):
+            model.run(readings={"b": [1.0, 2.0]})
+        with pytest.raises(gu.ModelError, match="^`table`, row 2: "):
+            gu.compare({"label": ["A", "B"], "x1": [1, 1], "U1": [1, -1], "x2": [1, 1], "U2": [1, 1]})
+
+    def test_of_a_file_that_was_changed(self) -> None:
+        """What stands in the file has a place there; what replaces it has a name."""
+        model = gu.load(MODELS / "inclined_plane.json")
+        with pytest.raises(gu.ModelError, match=r"inclined_plane.json`: `inputs.tilt.std`: "):
+            model.with_inputs(tilt=gu.normal(35, -1, "deg"))
+
+    def test_of_texts(self) -> None:
+        """A text that somebody wrote has lines."""
+        with pytest.raises(gu.ModelError, match=r"(?m)^<json>:1:25: ") as raised:
+            gu.from_json('{"format": 1, "inputs": 5, "outputs": {}}')
+        assert "\n1 | " in str(raised.value) and raised.value.errors[0]["argument"] is None
+
+
 class TestErrors:
     text = '{"format": 1,\n "inputs": {"a": {"unit": "mm", "distribution": "normal", "mean": 1}},\n'
     text += ' "equations": {"y": "a + b"},\n "outputs": {"y": {"unit": "mm"}}}\n'
@@ -162,7 +273,8 @@ class TestErrors:
         with pytest.raises(gu.ModelError) as raised:
             gu.load(path)
         assert str(raised.value) == said.strip()
-        assert raised.value.errors == checked["errors"]
+        # of a file there is no argument of Python
+        assert raised.value.errors == [{**error, "argument": None} for error in checked["errors"]]
         assert {error["line"] for error in raised.value.errors} == {2, 3}
         again = pickle.loads(pickle.dumps(raised.value))
         assert str(again) == str(raised.value) and again.errors == raised.value.errors
@@ -202,8 +314,63 @@ class TestErrors:
         ids=str,
     )  # fmt: skip
     def test_options(self, options: dict[str, Any]) -> None:
-        with pytest.raises(gu.ModelError):
+        with pytest.raises(gu.ModelError) as raised:
             gu.load(MODELS / "inclined_plane.json").run(**options)
+        names_keywords(raised.value, options)
+
+    @pytest.mark.parametrize(
+        "options",
+        [
+            {"coverage": 1.0}, {"coverage": "no"}, {"k": 0}, {"k": -1}, {"coverage": 0.9, "k": 2},
+        ],
+        ids=str,
+    )  # fmt: skip
+    def test_options_of_budgets(self, options: dict[str, Any]) -> None:
+        with pytest.raises(gu.ModelError) as raised:
+            gu.budgets(gu.load(MODELS / "inclined_plane.json"), tilt=(35, 0.1), **options)
+        names_keywords(raised.value, options)
+
+    @pytest.mark.parametrize(
+        ("command", "options"),
+        [
+            *(
+                (command, options)
+                for command in ("assumptions", "certificate")
+                for options in (
+                    {"trials": -1}, {"trials": 1.5}, {"trials": True}, {"trials": ""}, {"seed": -1},
+                    {"coverage": 5}, {"k": 0}, {"k": -2}, {"coverage": 0.9, "k": 2}, {"threads": 0},
+                )
+            ),
+            ("assumptions", {"allow": -1}), ("assumptions", {"allow": "x"}),
+            ("certificate", {"statement": "both"}), ("certificate", {"statement": "-x"}),
+            ("gap", {"seed": -1}), ("gap", {"seed": 2**64}), ("gap", {"threads": -1}),
+            ("gap_check", {"draws": -1}), ("gap_check", {"seed": 0.5}), ("gap_check", {"threads": 0}),
+            ("observe", {"seed": -1}), ("observe", {"seed": "x"}),
+            ("compare", {"scheme": "x"}), ("compare", {"scheme": ""}),
+            ("compare", {"scheme": "iso13528", "sigma": "nqr"}),
+            ("compare", {"scheme": "iso13528", "assigned": "mean", "sigma": 1}),
+        ],
+        ids=str,
+    )  # fmt: skip
+    def test_options_of_commands(self, command: str, options: dict[str, Any], tmp_path: Path) -> None:
+        """Options are checked before the file is read, whatever it contains."""
+        columns = {"label": ["A", "B"], "x": [10.3, 9.2]}
+        with pytest.raises(gu.ModelError) as raised:
+            getattr(gu, command)(columns if command == "compare" else tmp_path / "none.json", **options)
+        names_keywords(raised.value, options)
+
+    def test_advice_names_keywords(self) -> None:
+        alone = {"label": ["A"], "x": [10.3]}
+        with pytest.raises(gu.ModelError, match="^`scheme` is needed as well$"):
+            gu.compare(alone, sigma=5)
+        with pytest.raises(gu.ModelError, match="`assigned=VALUE, sigma=VALUE`"):
+            gu.compare(alone, scheme="iso13528")
+        with pytest.raises(gu.ModelError, match=r"^`table`: the table has no column U;.*`scheme='iso13528'`"):
+            gu.compare(alone)
+
+    def test_the_command_line_has_its_options(self) -> None:
+        with pytest.raises(gu.ModelError, match="--trials"):
+            gu.call("run", "model.json", "--trials", "-1")
 
     def test_unknown_outputs(self, plane: gu.Result) -> None:
         with pytest.raises(KeyError, match="a_x, a_y, a_z"):

@@ -175,7 +175,16 @@ def test_the_effect_that_was_there_is_named() -> None:
     assert frame["failed"].isna().all()
     assert found.to_dict()["seed"] == 1
     assert "gain-error" in str(found) and "gain-error" in repr(found)
-    assert "<iframe" in found._repr_html_()
+    # the tables of the page, without its figures and below 30 kB; the page on request
+    assert "gain" in found._repr_html_() and "<svg" not in found._repr_html_()
+    assert len(found._repr_html_()) < 30_000
+    assert "<iframe" in found.page()._repr_html_() and "<svg" in found.page().html
+    figure = pytest.importorskip("matplotlib.figure").Figure()
+    panels = figure.subplots(3, 1)
+    assert found.plot(ax=panels[:2]) is figure
+    assert panels[0].get_ylabel() == "residual of T / u" and panels[1].get_xlim() == (0, 1)
+    with pytest.raises(ValueError, match="3 axes, but 2 are needed: one for each of the residuals of T, the"):
+        found.plot(ax=panels)
     # further on, where nothing was measured: a run for each draw, all rows at once
     before = len(calls)
     late = np.linspace(10, 20, 7)

@@ -275,7 +275,7 @@ def test_what_cannot_be_shared(pool: ProcessPoolExecutor) -> None:
         model.run(trials="adaptive", executor=pool)
     with pytest.raises(gu.ModelError, match="give `executor`"):
         model.run(trials=1000, resume="parts")
-    with pytest.raises(gu.ModelError, match="`parts`"):
+    with pytest.raises(gu.ModelError, match="`parts"):
         model.run(trials=1000, executor=pool, parts=0)
     with pytest.raises(TypeError, match="Dask client"):
         model.run(trials=1000, executor=3)

@@ -2,8 +2,12 @@
 
 from __future__ import annotations
 
+import inspect
 import math
 import pickle
+import re
+import types
+from collections.abc import Callable
 from pathlib import Path
 from typing import Any
 
@@ -11,6 +15,7 @@ import numpy as np
 import pytest
 
 import gumption as gu
+from gumption import _gumption, _shapes
 
 
 @gu.model(inputs={"x": "V"}, outputs={"y": "V"})
@@ -396,3 +401,78 @@ class TestTables:
     def test_what_is_missing(self) -> None:
         with pytest.raises(gu.ModelError, match="no column f"):
             gu.from_dict(self.model).with_conditions({"g": [1.0]})
+
+
+#: The constructors by their distributions; `None` stands for components.
+CONSTRUCTORS = {
+    "constant": gu.constant, "normal": gu.normal, "rectangular": gu.rectangular,
+    "triangular": gu.triangular, "trapezoidal": gu.trapezoidal, "arcsine": gu.arcsine,
+    "curvilinear-trapezoid": gu.curvilinear_trapezoid, "t": gu.student_t, "readings": gu.readings,
+    "exponential": gu.exponential, "gamma": gu.gamma, "lognormal": gu.lognormal, "beta": gu.beta,
+    "log-uniform": gu.log_uniform, "poisson-count": gu.poisson_count, "samples": gu.samples,
+    "result": gu.result, None: gu.components,
+}  # fmt: skip
+
+#: Keys of the engine that cannot stand beside the arguments that a constructor needs.
+ELSEWHERE = {
+    "readings": {"mean", "s", "n", "file", "column", "groups"},
+    "samples": {"file", "column"},
+}
+
+#: Arguments that have another name than the key.
+RENAMED = {"parts": "components"}
+
+
+class TestKeys:
+    """A key that is misspelt is an error where it is written."""
+
+    @pytest.mark.parametrize("distribution", CONSTRUCTORS)
+    def test_they_are_those_of_the_engine(self, distribution: str | None) -> None:
+        """What type checkers offer is what the engine reads: no more, and no less."""
+        function = CONSTRUCTORS[distribution]
+        own = inspect.signature(function).parameters
+        arguments = {RENAMED.get(name, name) for name in own if name != "more"}
+        kind = re.fullmatch(r"Unpack\[(\w+)\]", own["more"].annotation)
+        assert kind
+        further = getattr(_shapes, kind[1])
+        keys = further.__required_keys__ | further.__optional_keys__
+        assert not arguments & keys
+        engine = {*(_gumption.input_keys(distribution) or ())} - {"distribution"}
+        assert arguments | keys | ELSEWHERE.get(distribution or "", set()) == engine
+
+    def test_every_constructor_is_held(self) -> None:
+        made = {name for name in gu.__all__ if isinstance(f := getattr(gu, name), types.FunctionType)
+                and f.__module__ == "gumption._shapes" and name != "known"}  # fmt: skip
+        assert made == {function.__name__ for function in CONSTRUCTORS.values()}
+
+    @pytest.mark.parametrize(
+        ("make", "near"),
+        [
+            (lambda: gu.normal(1, sdt=0.1), "`sdt`; did you mean `std`"),
+            (lambda: gu.normal(1, 0.1, abuot="scale"), "`abuot`; did you mean `about`"),
+            (lambda: gu.normal(1, 0.1, groupe=None), "`groupe`; did you mean `group`"),
+            (lambda: gu.rectangular(1, halfwidth=0.1), "`halfwidth`; did you mean `half_width`"),
+            (lambda: gu.exponential(1, std=0.1), "`exponential` has no key `std`; there are mean, unit"),
+            (lambda: gu.readings([1, 2], unti="V"), "`unti`; did you mean `unit`"),
+            (lambda: gu.components(1, {}, evidence=[1]), "with components has no key `evidence`"),
+            (lambda: gu.known(distribution="uniform", men=1), "`men`; did you mean `mean`"),
+        ],
+    )
+    def test_a_misspelt_key(self, make: Callable[[], gu.Input], near: str) -> None:
+        with pytest.raises(TypeError, match=near):
+            make()
+
+    def test_right_keys(self) -> None:
+        known = gu.normal(5, "0.02 % FS", "V", full_scale=10, about="scale", type="B", group="g", per="row")
+        assert known.spec["full_scale"] == 10 and known.spec["about"] == "scale"
+        assert figures(known) == (5.0, 0.002)
+        assert gu.known(distribution="uniform", mean=1, semi_range=0.1).spec["semi_range"] == 0.1
+
+    @pytest.mark.parametrize(
+        "number", [np.float32(2), np.int64(2), np.array(2.0), np.array(2), np.float64(2)]
+    )
+    def test_numbers_of_numpy(self, number: Any) -> None:
+        """2 is exact in every kind of number; u = 2."""
+        assert figures(number) == (2.0, 0.0)
+        assert figures((number, number)) == figures(gu.normal(number, number)) == (2.0, 2.0)
+        assert figures(gu.known(distribution="normal", mean=number, std=number)) == (2.0, 2.0)

@@ -37,12 +37,12 @@ mod workbook;
 pub use answer::{on_one_line, pretty};
 pub use budget_template::budget_template;
 pub use csv::{csv, of_records as csv_of_records, write_csv};
-pub use document::{FigureNames, PageWithFigures, with_figures};
+pub use document::{FigureNames, PageWithFigures, equation_latex, with_figures};
 pub use evaluation::{
     Extent, MOST_RESULTS, OutputParts, PageChoice, PageParts, ResultStatement, Shown, html,
     input_picture, latex, markdown, page_parts, table, trials_of_pairs, xlsx,
 };
-pub use html::{FigureSize, interactive, interactive_script_digest, page_style};
+pub use html::{FigureSize, equation_html, interactive, interactive_script_digest, page_style};
 pub use json::{json, write_json};
 pub use printed::{grouped, with_comma};
 pub use samples::TrialsForm;

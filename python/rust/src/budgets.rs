@@ -9,6 +9,7 @@ use numpy::{PyArray1, PyReadonlyArray1};
 use pyo3::prelude::*;
 use pyo3::types::{PyDict, PyList};
 
+use crate::coverage::{check_one, factor, probability};
 use crate::errors::argument;
 use crate::model::Model;
 use crate::supervised::supervised;
@@ -44,8 +45,8 @@ pub(crate) fn budgets<'py>(
     py: Python<'py>,
     model: &Bound<'py, Model>,
     columns: &Bound<'py, PyDict>,
-    coverage: Option<f64>,
-    k: Option<f64>,
+    coverage: Option<Bound<'py, PyAny>>,
+    k: Option<Bound<'py, PyAny>>,
     real_dof: bool,
 ) -> PyResult<Bound<'py, PyList>> {
     let file = Arc::clone(&model.get().file);
@@ -75,8 +76,11 @@ pub(crate) fn budgets<'py>(
         return Err(argument(py, format!("the model has no input or condition `{name}`")));
     }
     let own = task.settings.coverage;
-    let factor = k.map(|factor| Coverage::Factor { factor, fixed: false });
-    let coverage = coverage.map(Coverage::Probability).or(factor).unwrap_or(own);
+    check_one(py, coverage.is_some(), k.is_some())?;
+    let factor = k.as_ref().map(factor).transpose()?;
+    let factor = factor.map(|factor| Coverage::Factor { factor, fixed: false });
+    let probability = coverage.as_ref().map(probability).transpose()?;
+    let coverage = probability.map(Coverage::Probability).or(factor).unwrap_or(own);
     let real_dof = real_dof || task.settings.real_dof;
     let of = Arc::clone(&file);
     let made = supervised(py, None, move |_| {

@@ -135,12 +135,6 @@ pub(crate) fn unit_of_differences(py: Python<'_>, unit: &str) -> PyResult<String
     Ok(if parsed.is_celsius() { "K".to_owned() } else { text })
 }
 
-/// An estimate and its standard uncertainty, to two digits of this one.
-#[pyfunction]
-pub(crate) fn rounded(estimate: f64, standard_uncertainty: f64) -> (String, String) {
-    gumption::report::number::with_uncertainty(estimate, standard_uncertainty, 2)
-}
-
 /// Whether values in one unit can be converted to another.
 #[pyfunction]
 pub(crate) fn units_fit(first: &str, second: &str) -> bool {

@@ -20,7 +20,7 @@ use pyo3::prelude::*;
 use pyo3::types::{PyBytes, PyDict, PyList};
 
 use crate::application;
-use crate::errors::{argument, failed};
+use crate::errors::{argument, failed, failed_with};
 use crate::supervised::{Watch, supervised, supervised_asking, supervised_within};
 
 /// The name of the table of a prediction's conditions.
@@ -114,7 +114,8 @@ impl SimulatedGap {
         let read = supervised_within(py, &AtomicBool::new(false), || {
             application().files().holding(&held).case_text("<stdin>", &text, Path::new(""))
         })?;
-        let file = read.map_err(|found| failed(py, &Failure::Diagnostics(found)))?;
+        let names: Vec<&str> = held.iter().map(|(name, _)| name.as_str()).collect();
+        let file = read.map_err(|found| failed_with(py, &Failure::Diagnostics(found), &names))?;
         let given = simulator_case(&file.case, &file.case.task.rows);
         let given = given.ok_or_else(|| argument(py, "the case has no simulator"))?;
         Ok(Self(Arc::new(GapCase { file, held, given })))

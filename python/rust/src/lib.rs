@@ -2,10 +2,12 @@
 //! command line of this workspace as Python objects. What is only Python stands in
 //! `python/gumption`.
 
+mod argument_place;
 mod arrow;
 mod budgets;
 mod call;
 mod columns;
+mod coverage;
 mod diagnosis;
 mod draws;
 mod errors;
@@ -13,6 +15,7 @@ mod function;
 mod model;
 mod parts;
 mod run;
+mod shown;
 mod supervised;
 
 use pyo3::prelude::*;
@@ -28,7 +31,10 @@ fn application() -> &'static gumption::Application {
 #[pymodule(gil_used = false)]
 fn _gumption(module: &Bound<'_, PyModule>) -> PyResult<()> {
     module.add("__version__", env!("CARGO_PKG_VERSION"))?;
-    module.add("ModelError", module.py().get_type::<errors::ModelError>())?;
+    let error = module.py().get_type::<errors::ModelError>();
+    // what Python raises itself is about an argument, and has none
+    error.setattr("errors", pyo3::types::PyList::empty(module.py()))?;
+    module.add("ModelError", error)?;
     module.add_class::<diagnosis::SimulatedGap>()?;
     module.add_class::<diagnosis::SimulatorGap>()?;
     module.add_class::<model::Model>()?;
@@ -41,9 +47,12 @@ fn _gumption(module: &Bound<'_, PyModule>) -> PyResult<()> {
     module.add_function(wrap_pyfunction!(call::carried_models, module)?)?;
     module.add_function(wrap_pyfunction!(call::case_source, module)?)?;
     module.add_function(wrap_pyfunction!(call::main, module)?)?;
-    module.add_function(wrap_pyfunction!(call::rounded, module)?)?;
     module.add_function(wrap_pyfunction!(call::unit_of_differences, module)?)?;
     module.add_function(wrap_pyfunction!(call::unit_product, module)?)?;
+    module.add_function(wrap_pyfunction!(shown::equation_html, module)?)?;
+    module.add_function(wrap_pyfunction!(shown::equation_latex, module)?)?;
+    module.add_function(wrap_pyfunction!(shown::input_keys, module)?)?;
+    module.add_function(wrap_pyfunction!(shown::printed, module)?)?;
     module.add_function(wrap_pyfunction!(call::unit_scale, module)?)?;
     module.add_function(wrap_pyfunction!(call::unit_within, module)?)?;
     module.add_function(wrap_pyfunction!(call::units_fit, module)?)?;

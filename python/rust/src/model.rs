@@ -16,8 +16,9 @@ use pyo3::prelude::*;
 use pyo3::types::{PyDict, PyTuple};
 
 use crate::application;
+use crate::coverage;
 use crate::draws;
-use crate::errors::{argument, failed};
+use crate::errors::{argument, failed, failed_with};
 use crate::function::PythonFunction;
 use crate::parts::Parts;
 use crate::run::{Note, Ran, Run, notes};
@@ -66,7 +67,7 @@ impl RunRequest {
                 continue;
             }
             let name: String = name.extract()?;
-            let needed = |what: &str| argument(py, format!("`{name}`: {what} is needed"));
+            let needed = |what: &str| coverage::needed(&value, &name, what);
             match name.as_str() {
                 "trials" => {
                     asked.changes.trials = Some(trials(&value).ok_or_else(|| {
@@ -78,16 +79,10 @@ impl RunRequest {
                     asked.changes.seed = Some(seed?);
                 }
                 "coverage" => {
-                    let p = value.extract().ok().filter(|p| 0.0 < *p && *p < 1.0);
-                    let p =
-                        p.ok_or_else(|| needed("a probability between 0 and 1, such as 0.95,"))?;
+                    let p = coverage::probability(&value)?;
                     asked.changes.coverage = Some(Coverage::Probability(p));
                 }
-                "k" => {
-                    let k = value.extract().ok().filter(|k| 0.0 < *k && *k <= 8.0);
-                    asked.factor =
-                        Some(k.ok_or_else(|| needed("a coverage factor above 0 and up to 8"))?);
-                }
+                "k" => asked.factor = Some(coverage::factor(&value)?),
                 "digits" => {
                     let digits = value.extract().ok().filter(|d| (1..=15).contains(d));
                     asked.changes.digits =
@@ -130,9 +125,7 @@ impl RunRequest {
             }
         }
         let refuse = |reason: &str| Err(argument(py, reason));
-        if asked.changes.coverage.is_some() && asked.factor.is_some() {
-            return refuse("`coverage` and `k` say the same; give one of them");
-        }
+        coverage::check_one(py, asked.changes.coverage.is_some(), asked.factor.is_some())?;
         if asked.changes.validate && asked.changes.trials.is_some() {
             return refuse("`validate` finds the number of trials; leave `trials` out");
         }
@@ -207,7 +200,9 @@ impl Model {
         };
         // on threads of this process: a forked child has none of its parent's
         let read = supervised_within(py, &AtomicBool::new(false), read)?;
-        let file = read.map_err(|found| failed(py, &Failure::Diagnostics(found)))?;
+        let given = source.held.iter().chain(&source.readings).map(|(name, _)| name.as_str());
+        let given: Vec<&str> = given.collect();
+        let file = read.map_err(|found| failed_with(py, &Failure::Diagnostics(found), &given))?;
         let provenance = Provenance::of(&file.source.text, &file.files);
         Ok(Self {
             source: Arc::new(source),

@@ -35,6 +35,9 @@ pub(crate) struct Ran {
     pub(crate) memory: usize,
 }
 
+/// Title, result, budget, conclusions and comparison of an output.
+type OutputOfPage = (String, String, String, String, String);
+
 /// A finished run.
 #[pyclass(frozen, module = "gumption._gumption")]
 #[derive(Debug)]
@@ -241,6 +244,23 @@ impl Run {
         let width = self.0.task.model.conditions.len();
         let values = rows.iter().flat_map(|row| row.conditions.iter().copied()).collect();
         PyArray1::from_vec(py, values).reshape([rows.len(), width])
+    }
+
+    /// For each output of a row its title, and as HTML what the page says of it: the result, the
+    /// budget, what follows from it, and both methods side by side. Without the distribution of the
+    /// trials, for which they would be made again.
+    fn page_parts(&self, py: Python<'_>, row: usize) -> PyResult<Vec<OutputOfPage>> {
+        self.check_row(row)?;
+        self.made(py, move |ran, _| {
+            let choice = report::PageChoice { row, ..report::PageChoice::default() };
+            let shown = Shown { replaced: &ran.replaced, ..Shown::default() };
+            let size = report::FigureSize::Narrow;
+            let parts = report::page_parts(&ran.report(), &shown, size, choice);
+            let of = |one: report::OutputParts| {
+                (one.title, one.verdict, one.budget, one.conclusions, one.comparison)
+            };
+            parts.outputs.into_iter().map(of).collect()
+        })
     }
 
     /// The columns of an output's budget in a row; none where there is no budget.

@@ -3,12 +3,12 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 import numpy.typing as npt
 
-from gumption import _gumption
+from gumption import _gumption, _notebook
 from gumption._check import check_rows
 from gumption._measurement import Measurement
 from gumption._model import Model
@@ -67,12 +67,24 @@ class OutputBudgets:
     def __len__(self) -> int:
         return len(self.estimate)
 
+    def _table(self) -> str:
+        shown = _notebook.estimates(
+            {"row": range(len(self))}, self.estimate, self.standard_uncertainty, self.expanded_uncertainty
+        )
+        return _notebook.title(f"{self.name} in {self.unit}") + shown
+
+    def _repr_html_(self) -> str:
+        return _notebook.whole([self._table()])
+
     def __repr__(self) -> str:
         return f"<gumption.OutputBudgets: {len(self)} of {self.name} in {self.unit}>"
 
 
 class _All(Mapping[str, OutputBudgets]):
-    """The budgets of all outputs by name."""
+    """The budgets of all outputs by name.
+
+    Of a model of one output the columns are attributes as well.
+    """
 
     def __init__(self, outputs: Mapping[str, OutputBudgets]) -> None:
         self._outputs = dict(outputs)
@@ -80,17 +92,32 @@ class _All(Mapping[str, OutputBudgets]):
     def __getitem__(self, name: str) -> OutputBudgets:
         return self._outputs[name]
 
-    def __getattr__(self, name: str) -> Any:
-        # of a model of one output the columns are at hand at once
-        if not name.startswith("_") and len(self._outputs) == 1:
-            return getattr(next(iter(self._outputs.values())), name)
-        raise AttributeError(name)
+    if TYPE_CHECKING:
+        name: str
+        unit: str
+        estimate: Column
+        standard_uncertainty: Column
+        expanded_uncertainty: Column
+        dof: Column
+        coverage_factor: Column
+        sensitivities: dict[str, Column]
+        contributions: dict[str, Column]
+    else:
+
+        def __getattr__(self, name: str) -> Any:
+            # of a model of one output the columns are at hand at once
+            if not name.startswith("_") and len(self._outputs) == 1:
+                return getattr(next(iter(self._outputs.values())), name)
+            raise AttributeError(name)
 
     def __iter__(self) -> Iterator[str]:
         return iter(self._outputs)
 
     def __len__(self) -> int:
         return len(self._outputs)
+
+    def _repr_html_(self) -> str:
+        return _notebook.whole([of._table() for of in self._outputs.values()])
 
     def __repr__(self) -> str:
         return f"<gumption.budgets: {', '.join(map(repr, self._outputs.values()))}>"
@@ -103,7 +130,7 @@ def budgets(
     k: float | None = None,
     real_dof: bool = False,
     **columns: Any,
-) -> Any:
+) -> _All:
     """Budgets of many measurements of one model: columns in, columns out.
 
     Parameters

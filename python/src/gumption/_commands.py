@@ -9,9 +9,13 @@ import tempfile
 from collections.abc import Mapping, Sequence
 from typing import Any
 
-from gumption import _gumption
-from gumption._result import format_of, framed
+from gumption import _gumption, _notebook
+from gumption._keywords import called
+from gumption._notebook import Page
+from gumption._result import format_of
 
+#: Options without a value.
+_FLAGS = ("fail", "rounding")
 
 
 def call(*arguments: str | os.PathLike[str]) -> bytes:
@@ -54,7 +58,7 @@ class Answer(dict[str, Any]):
 
     def _call(self, more: Sequence[str]) -> tuple[bytes, str, bool]:
         arguments, model, text = self._asked
-        return _gumption.call([*arguments, *more], model, text)
+        return called([*arguments, *more], model, text)
 
     def to(self, format: str) -> bytes:  # noqa: A002 - the name that the command line has
         """The answer in another format of the command, such as ``"table"`` or ``"html"``.
@@ -85,13 +89,23 @@ class Answer(dict[str, Any]):
 
         return frame_of(self.to("csv").decode())
 
+    def page(self) -> Page:
+        """The whole page with its figures, which a notebook shows in a frame.
+
+        Raises
+        ------
+        ModelError
+            If the command has no page.
+        """
+        return Page(self.to("html").decode())
+
     def _repr_html_(self) -> str:
         try:
-            return framed(self.to("html").decode())
+            page = self.to("html").decode()
         except _gumption.ModelError:
-            import html
-
-            return f"<pre>{html.escape(str(self))}</pre>"
+            # a command without a page
+            return _notebook.text(str(self))
+        return _notebook.light_page(page)
 
     def __str__(self) -> str:
         return self.to("table").decode()
@@ -125,7 +139,7 @@ class _Together(Answer):
 
     def _call(self, more: Sequence[str]) -> tuple[bytes, str, bool]:
         arguments, model, text = self._asked
-        return _gumption.call([*arguments, *more], model, text, self._made[2])
+        return called([*arguments, *more], model, text, self._made[2])
 
     def __reduce__(self) -> Any:
         return _Together, self._made
@@ -136,19 +150,18 @@ class Certificate(Answer):
 
 
 def _options(**options: Any) -> list[str]:
-    """Options of the command line; `None` and `False` are left out."""
+    """Options of the command line by the arguments of a function; `None` is left out."""
     found: list[str] = []
     for name, value in options.items():
         option = f"--{name.replace('_', '-')}"
-        if value is None or value is False:
+        if value is None:
             continue
-        if value is True:
-            found.append(option)
-        elif isinstance(value, (list, tuple)):
-            for each in value:
-                found += [option, os.fspath(each)]
+        if name in _FLAGS:
+            found += [option] if value else []
         else:
-            found += [option, os.fspath(value) if isinstance(value, os.PathLike) else str(value)]
+            # in one argument, as a value may begin with a minus sign
+            values = value if isinstance(value, (list, tuple)) else [value]
+            found += [f"{option}={os.fspath(v) if isinstance(v, os.PathLike) else v}" for v in values]
     return found
 
 

@@ -13,10 +13,11 @@ from typing import Any
 import numpy as np
 import numpy.typing as npt
 
-from gumption import _gumption
+from gumption import _gumption, _notebook
 from gumption._frames import columns, csv, numbers
 from gumption._quantities import as_input
-from gumption._result import format_of, framed
+from gumption._notebook import Page
+from gumption._result import format_of
 from gumption._shapes import Input, plain
 from gumption._simulate import Simulate
 
@@ -64,6 +65,16 @@ class Effect:
             if self.neutral:
                 found["neutral"] = dict(self.neutral)
         return found
+
+    def _repr_html_(self) -> str:
+        shown = [_notebook.title(self.about or "effect")]
+        shown.append(_notebook.inputs({name: known.to_dict() for name, known in self.parameters.items()}))
+        if self.overrides:
+            equations = [[_notebook.equation(name, formula)] for name, formula in self.overrides.items()]
+            shown.append(_notebook.table(["overrides"], equations))
+        elif self.neutral:
+            shown.append(_notebook.table(["absent at", "value"], self.neutral.items()))
+        return _notebook.whole(shown)
 
     def __repr__(self) -> str:
         parts = [f"{self.parameters!r}"]
@@ -195,6 +206,15 @@ class Runs:
         values = [self.parameters[name] for name in parameters]
         return np.column_stack(values), np.hstack([self.outputs[name] for name in outputs])
 
+    def _repr_html_(self) -> str:
+        failed = int(self.failed.sum())
+        said = f"{len(self)} runs, of which {failed} failed; {self.rows} rows of {', '.join(self.outputs)}"
+        ranges = [
+            [name, f"{values.min():.6g}", f"{values.max():.6g}"] for name, values in self.parameters.items()
+        ]
+        headings = ["parameter", "smallest", "largest"]
+        return _notebook.whole([_notebook.title(said), _notebook.table(headings, ranges, headings[1:])])
+
     def __repr__(self) -> str:
         of = ", ".join(self.parameters)
         return f"<{len(self)} runs with {of}: {', '.join(self.outputs)} at {self.rows} rows>"
@@ -251,7 +271,7 @@ def runs(parameters: Any, outputs: Mapping[str, npt.ArrayLike]) -> Runs:
 class Diagnosis:
     """Where a simulator and its data depart, which effect is missing, and how far the gap then shrinks.
 
-    In a notebook it shows the page of ``gumption gap``.
+    In a notebook it shows the tables of the page of ``gumption gap``, and `page` all of it.
     """
 
     def __init__(
@@ -412,15 +432,36 @@ class Diagnosis:
         found: dict[str, Any] = json.loads(self._rust.json())
         return found
 
-    def plot(self) -> Any:
-        """A ``matplotlib`` figure: what the data depart by from the plain and from the corrected sim, over
-        the rows or the only condition, and the probabilities of the effects."""
+    def plot(self, *, ax: Any = None) -> Any:
+        """Draw what the data depart by from the plain and from the corrected sim, over the rows or the
+        only condition, and the probabilities of the effects.
+
+        Parameters
+        ----------
+        ax : array of matplotlib.axes.Axes, optional
+            Where to draw: one for each output, and one for the effects. A new figure has them unless
+            given.
+
+        Returns
+        -------
+        matplotlib.figure.Figure
+            The figure of the axes.
+
+        Raises
+        ------
+        ValueError
+            If the number of axes is another one.
+        """
         from gumption._plot import plot_gap
 
-        return plot_gap(self._answer)
+        return plot_gap(self._answer, ax)
+
+    def page(self) -> Page:
+        """The whole page with its figures, which a notebook shows in a frame."""
+        return Page(self.to("html").decode())
 
     def _repr_html_(self) -> str:
-        return framed(self.to("html").decode())
+        return _notebook.light_page(self.to("html").decode())
 
     def __str__(self) -> str:
         return self.to("table").decode()

@@ -18,6 +18,7 @@ from contextlib import closing
 from typing import TYPE_CHECKING, Any
 
 from gumption import _gumption
+from gumption._keywords import called
 
 if TYPE_CHECKING:
     from gumption._model import Model
@@ -352,7 +353,7 @@ def _draws(case: bytes, threads: int, start: int, end: int) -> bytes:
     with tempfile.TemporaryDirectory() as folder:
         file = os.path.join(folder, "draws")
         share = ["--share", f"{start}..{end}", "--partial", file, "--threads", str(threads)]
-        _gumption.call(["gap-check", "-", *options, *share, "--quiet"], None, text, held)
+        called(["gap-check", "-", *options, *share, "--quiet"], None, text, held)
         with open(file, "rb") as made:
             return made.read()
 

@@ -9,9 +9,12 @@ import re
 import types
 import warnings
 from collections.abc import Callable, Mapping, Sequence
-from typing import Any
+from typing import Any, overload
 
-from gumption import _gumption
+import numpy as np
+import numpy.typing as npt
+
+from gumption import _gumption, _notebook
 from gumption._arguments import Arguments
 from gumption._block import BlockFunction, Way
 from gumption._check import checked
@@ -165,6 +168,36 @@ class Measurement:
             )
         return dict(zip(names, found))
 
+    def latex(self) -> str:
+        """The traced equations in LaTeX.
+
+        Raises
+        ------
+        ModelError
+            If the function could not be traced.
+        """
+        if self.equations is None:
+            raise _gumption.ModelError(f"`{self.title}` could not be traced ({self.why_not_traced})")
+        return _notebook.latex_equations(self.equations)
+
+    def _repr_latex_(self) -> str | None:
+        return None if self.equations is None else self.latex()
+
+    def _repr_html_(self) -> str:
+        shown = [_notebook.title(self.title)]
+        if self.equations is not None:
+            lines = [[_notebook.equation(name, formula)] for name, formula in self.equations.items()]
+            shown.append(_notebook.table(["equation"], lines))
+        else:
+            why = _notebook.table(["computed by Python, as it is not traced"], [[self.why_not_traced]])
+            shown.append(why)
+        for heading, units in (
+            ("input", self.inputs), ("condition", self.conditions), ("output", self.outputs),
+        ):  # fmt: skip
+            if units:
+                shown.append(_notebook.table([heading, "unit"], units.items()))
+        return _notebook.whole(shown)
+
     def __repr__(self) -> str:
         how = "traced" if self.equations is not None else "not traced"
         return f"<gumption.Measurement {self.title!r}: {', '.join(self.outputs)} ({how})>"
@@ -182,6 +215,36 @@ class Measurement:
             self._is_traced, self.check,
         )  # fmt: skip
 
+    @overload
+    def __call__(
+        self,
+        *arguments: Any,
+        conditions: None = None,
+        correlations: Sequence[tuple[str, str, float]] = ...,
+        title: str | None = ...,
+        trials: int | str | None = ...,
+        seed: int | None = ...,
+        coverage_probability: float | None = ...,
+        coverage_factor: float | None = ...,
+        tolerance: Mapping[str, Mapping[str, float]] | None = ...,
+        **named: Any,
+    ) -> Model[float]: ...
+
+    @overload
+    def __call__(
+        self,
+        *arguments: Any,
+        conditions: Any,
+        correlations: Sequence[tuple[str, str, float]] = ...,
+        title: str | None = ...,
+        trials: int | str | None = ...,
+        seed: int | None = ...,
+        coverage_probability: float | None = ...,
+        coverage_factor: float | None = ...,
+        tolerance: Mapping[str, Mapping[str, float]] | None = ...,
+        **named: Any,
+    ) -> Model[npt.NDArray[np.float64]]: ...
+
     def __call__(
         self,
         *arguments: Any,
@@ -194,7 +257,7 @@ class Measurement:
         coverage_factor: float | None = None,
         tolerance: Mapping[str, Mapping[str, float]] | None = None,
         **named: Any,
-    ) -> Model:
+    ) -> Model[Any]:
         """The model with its inputs.
 
         Parameters
@@ -262,7 +325,7 @@ class Measurement:
         known: Mapping[str, Any],
         held: Mapping[str, bytes],
         aliases: Mapping[str, str],
-    ) -> Model:
+    ) -> Model[Any]:
         """The model of a file that has no formulas yet, and nothing about its inputs."""
         formulas = {**aliases, **(self.equations or {})}
         file["equations"] = formulas
@@ -488,7 +551,7 @@ def model(
     {'density': '4*mass/(pi*diameter^2*height)'}
     >>> m = cylinder(mass=gumption.normal(21.32, 0.01), diameter=(12.0, 0.005), height=24.0)
     >>> round(m.run(trials=0)["density"].gum.estimate, 1)
-    7854.7
+    7854.6
     """
 
     def decorate(function: Callable[..., Any]) -> Measurement:

@@ -6,24 +6,29 @@ import json
 import os
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from contextlib import contextmanager
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, Generic, overload
 
-from gumption import _gumption
+import numpy as np
+import numpy.typing as npt
+
+from gumption import _gumption, _notebook
 from gumption._frames import condition_file, readings_file
 from gumption._joint import Joint, identity_of, listed
 from gumption._quantity import Expression, formulas
 from gumption._quantities import as_input, as_known, shared, unit_of
-from gumption._result import Result
+from gumption._result import Figure_co, Result
 
 if TYPE_CHECKING:
     from gumption._block import BlockFunction
     from gumption._check import Held
 
 
-class Model:
+class Model(Generic[Figure_co]):
     """A measurement model with its inputs; it is immutable.
 
-    `load`, `from_dict`, `from_json` and `Measurement` make models. They pickle.
+    `load`, `from_dict`, `from_json` and `Measurement` make models. They pickle. To type checkers
+    ``Model[float]`` is a model without conditions, whose figures are numbers, and
+    ``Model[NDArray[float64]]`` one with conditions, whose figures are arrays.
     """
 
     _rust: _gumption.Model
@@ -44,7 +49,7 @@ class Model:
         function: BlockFunction | None = None,
         known: Mapping[str, Any] | None = None,
         held: Held | None = None,
-    ) -> Model:
+    ) -> Model[Any]:
         made = object.__new__(cls)
         made._rust, made._function, made._known, made._held = rust, function, known, held
         return made
@@ -112,7 +117,7 @@ class Model:
         parts: int | None = None,
         resume: str | os.PathLike[str] | None = None,
         to_save: bool = False,
-    ) -> Result:
+    ) -> Result[Figure_co]:
         """Evaluate by the law of propagation (JCGM 100) and by Monte Carlo (JCGM 101).
 
         Other Python threads continue meanwhile, and Ctrl-C ends the run at once. Settings that are
@@ -201,7 +206,7 @@ class Model:
                 )
             return Result(model, given, model._evaluated(given, progress))
         if parts is not None and parts < 1:
-            raise _gumption.ModelError("`parts`: a whole number from 1 is needed")
+            raise _gumption.ModelError(f"`parts={parts}`: a whole number from 1 is needed")
         from gumption._executors import run_on
 
         with model._bar(given, progress) as told:
@@ -211,7 +216,7 @@ class Model:
             )  # fmt: skip
         return Result(model, given, run)
 
-    def _with_readings(self, readings: Any) -> Model:
+    def _with_readings(self, readings: Any) -> Model[Figure_co]:
         """The model with readings that replace its own."""
         self._refuse_function("readings")
         return self._derived(_gumption.Model(*self._rust.source[:7], readings_file(readings)), self._known)
@@ -250,7 +255,7 @@ class Model:
         with self._bar(options, progress) as told:
             return self._rust.run(options, told, self._columns())
 
-    def set(self, *replacements: str, **values: Any) -> Model:
+    def set(self, *replacements: str, **values: Any) -> Model[Figure_co]:
         """The model with replaced estimates or fields of inputs, as for ``--set``.
 
         Limits move along with an estimate, and widths follow their specification.
@@ -276,7 +281,7 @@ class Model:
         *,
         correlations: Sequence[tuple[str, str, float]] | None = None,
         **named: Any,
-    ) -> Model:
+    ) -> Model[Figure_co]:
         """The model with some inputs replaced.
 
         Parameters
@@ -304,7 +309,9 @@ class Model:
         held, known = take_inputs(file, given, units, kept)
         return self._with(file, {**dict(self._rust.source[3]), **held}, known)
 
-    def with_conditions(self, table: Any, units: Mapping[str, str] | None = None) -> Model:
+    def with_conditions(
+        self, table: Any, units: Mapping[str, str] | None = None
+    ) -> Model[npt.NDArray[np.float64]]:
         """The model in every row of a table of conditions.
 
         Parameters
@@ -326,14 +333,14 @@ class Model:
 
     def _with(
         self, file: Mapping[str, Any], held: Mapping[str, bytes], known: Mapping[str, Any] | None
-    ) -> Model:
+    ) -> Model[Any]:
         name, _, folder, _, allow, replaced, accept, readings = self._rust.source
         text = written(file)
         files = list(held.items())
-        made = _gumption.Model(name, text, folder, files, allow, replaced, accept, readings)
+        made = _gumption.Model(_made(name), text, folder, files, allow, replaced, accept, readings)
         return self._derived(made, known)
 
-    def _derived(self, rust: _gumption.Model, known: Mapping[str, Any] | None) -> Model:
+    def _derived(self, rust: _gumption.Model, known: Mapping[str, Any] | None) -> Model[Any]:
         """A model with the same formulas, checked against their function."""
         held = self._held.of(rust) if self._held is not None else None
         return Model._of(rust, known=known, held=held)
@@ -344,6 +351,41 @@ class Model:
                 f"`{what}` needs a model of formulas, but the function of `{self.title}` could not be "
                 "traced, or not rightly; call the function with other inputs"
             )
+
+    def _equations(self) -> dict[str, str]:
+        """The formulas; none of a typed model and of a function that is not traced."""
+        found: dict[str, str] = {} if self._function is not None else self.to_dict().get("equations", {})
+        return found
+
+    def latex(self) -> str:
+        """The equations in LaTeX.
+
+        Raises
+        ------
+        ModelError
+            If the model has no equations.
+        """
+        if not (equations := self._equations()):
+            raise _gumption.ModelError(f"`{self.title}` has no equations")
+        return _notebook.latex_equations(equations)
+
+    def _repr_latex_(self) -> str | None:
+        return self.latex() if self._equations() else None
+
+    def _repr_html_(self) -> str:
+        file = self.to_dict()
+        shown = [_notebook.title(self.title)]
+        if equations := self._equations():
+            lines = [[_notebook.equation(name, formula)] for name, formula in equations.items()]
+            shown.append(_notebook.table(["equation"], lines))
+        elif self._function is not None:
+            shown.append("<div>computed by a Python function</div>")
+        shown.append(_notebook.inputs(file.get("inputs", {})))
+        shown.append(_notebook.table(["output", "unit"], self.outputs.items()))
+        if self.conditions:
+            shown.append(_notebook.table(["condition", "unit"], self.conditions.items()))
+            shown.append(f"<div>{self.rows} rows of conditions</div>")
+        return _notebook.whole(shown)
 
     def __repr__(self) -> str:
         inputs, outputs = ", ".join(self.inputs), ", ".join(self.outputs)
@@ -481,6 +523,13 @@ def written(file: Mapping[str, Any]) -> str:
     return "{\n" + ",\n".join(member(key, value) for key, value in file.items()) + "\n}"
 
 
+def _made(name: str) -> str:
+    """The name of a text that is made here, and has no places that anybody knows."""
+    if name == "<json>":
+        return "<dict>"
+    return name if name.startswith("<") else f"<dict {name}>"
+
+
 def load(
     path: str | os.PathLike[str],
     *,
@@ -488,7 +537,7 @@ def load(
     set: Mapping[str, Any] | Sequence[str] = (),  # noqa: A002 - the name that the command line has
     allow_path: Sequence[str | os.PathLike[str]] = (),
     accept_changed: bool = False,
-) -> Model:
+) -> Model[Any]:
     """Read a model file, or the model that another file carries.
 
     A workbook of a run (``--format xlsx``) contains its model file, and a Digital Calibration
@@ -553,7 +602,7 @@ def _carried(path: str, wanted: str | None) -> tuple[str, str, list[tuple[str, b
     raise _gumption.ModelError(f"{path}: it carries {names}; say which with `model=`")
 
 
-def from_json(text: str, *, name: str = "<json>", folder: str | os.PathLike[str] = "") -> Model:
+def from_json(text: str, *, name: str = "<json>", folder: str | os.PathLike[str] = "") -> Model[Any]:
     """Read the text of a model file.
 
     Parameters
@@ -568,13 +617,33 @@ def from_json(text: str, *, name: str = "<json>", folder: str | os.PathLike[str]
     return Model._of(_gumption.Model(name, text, os.fspath(folder)))
 
 
+@overload
+def from_dict(
+    file: Mapping[str, Any],
+    *,
+    name: str = ...,
+    folder: str | os.PathLike[str] = ...,
+    conditions: None = None,
+) -> Model[Any]: ...
+
+
+@overload
+def from_dict(
+    file: Mapping[str, Any],
+    *,
+    name: str = ...,
+    folder: str | os.PathLike[str] = ...,
+    conditions: Any,
+) -> Model[npt.NDArray[np.float64]]: ...
+
+
 def from_dict(
     file: Mapping[str, Any],
     *,
     name: str = "<dict>",
     folder: str | os.PathLike[str] = "",
     conditions: Any = None,
-) -> Model:
+) -> Model[Any]:
     """Make a model from a dictionary with the keys of a model file.
 
     Inputs may be whatever `Measurement` takes: `Input` objects, outputs of results, numbers of
@@ -608,5 +677,5 @@ def from_dict(
         units = {n: of if isinstance(of, str) else of.get("unit", "1") for n, of in asked.items()}
         made["conditions"], tables = condition_file(conditions, units)
         held.update(tables)
-    rust = _gumption.Model(name, written(made), os.fspath(folder), list(held.items()))
+    rust = _gumption.Model(_made(name), written(made), os.fspath(folder), list(held.items()))
     return Model._of(rust, known=known)

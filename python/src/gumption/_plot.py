@@ -10,13 +10,38 @@ if TYPE_CHECKING:
     from gumption._result import Result
 
 
-def plot(result: Result, outputs: list[str], row: int | None) -> Any:
-    """The figure that `Result.plot` gives."""
-    from matplotlib.figure import Figure
+def _panels(ax: Any, wanted: list[str], height: float) -> list[Any]:
+    """The axes that are given, or those of a new figure.
 
+    Parameters
+    ----------
+    ax : matplotlib.axes.Axes or array of these or None
+        The axes that are given.
+    wanted : list of str
+        What is drawn in each.
+    height : float
+        The height of each in a new figure, in inches.
+    """
+    if ax is None:
+        from matplotlib.figure import Figure
+
+        figure = Figure(figsize=(6.4, height * len(wanted)), layout="constrained")
+        return list(figure.subplots(len(wanted), 1, squeeze=False)[:, 0])
+    panels = list(np.ravel(np.asarray(ax, dtype=object)))
+    for panel in panels:
+        if not hasattr(panel, "errorbar"):
+            raise TypeError(f"`ax` has a {type(panel).__name__}, but must be matplotlib axes")
+    if len(panels) != len(wanted):
+        raise ValueError(
+            f"`ax` has {len(panels)} axes, but {len(wanted)} are needed: one for each of {', '.join(wanted)}"
+        )
+    return panels
+
+
+def plot(result: Result, outputs: list[str], row: int | None, ax: Any) -> Any:
+    """The figure that `Result.plot` gives."""
     drawn = [result[name] for name in outputs]
-    figure = Figure(figsize=(6.4, 3.2 * len(drawn)), layout="constrained")
-    panels = figure.subplots(len(drawn), 1, squeeze=False)[:, 0]
+    panels = _panels(ax, outputs, 3.2)
     swept = result._run.swept and row is None
     bins = None if swept else dict(zip(result, result._run.histograms(row or 0)))
     for panel, output in zip(panels, drawn):
@@ -24,7 +49,7 @@ def plot(result: Result, outputs: list[str], row: int | None) -> Any:
             _sweep(panel, result, output)
         else:
             _distribution(panel, output, bins.get(output.name), row or 0)
-    return figure
+    return panels[0].figure
 
 
 def _at(value: Any, row: int) -> Any:
@@ -80,16 +105,13 @@ def _sweep(panel: Any, result: Result, output: Any) -> None:
     panel.legend(fontsize="small")
 
 
-def plot_gap(answer: dict[str, Any]) -> Any:
+def plot_gap(answer: dict[str, Any], ax: Any) -> Any:
     """The figure of a diagnosis: residuals over their standard uncertainty before and after, by output, and
     the probabilities of the effects."""
-    from matplotlib.figure import Figure
-
     rows = answer["rows"]
     outputs = list(rows[0]["outputs"]) if rows else []
     names = list(rows[0]["conditions"]) if rows else []
-    figure = Figure(figsize=(6.4, 2.6 * (len(outputs) + 1)), layout="constrained")
-    *panels, bars = figure.subplots(len(outputs) + 1, 1, squeeze=False)[:, 0]
+    *panels, bars = _panels(ax, [*(f"the residuals of {name}" for name in outputs), "the effects"], 2.6)
     # over the first condition where it runs along with the rows, as time does; else over the rows
     x = np.array([row["conditions"][names[0]] for row in rows]) if names else np.arange(0)
     is_along = len(x) > 1 and bool(np.all(np.diff(x) > 0))
@@ -109,4 +131,4 @@ def plot_gap(answer: dict[str, Any]) -> Any:
     bars.set_xlim(0, 1)
     bars.invert_yaxis()
     bars.set_xlabel("probability that the effect is there")
-    return figure
+    return bars.figure

@@ -163,6 +163,8 @@ def as_input(value: Any, name: str = "the input") -> Input:
         return Input(spec, spec.pop("unit", None))
     if isinstance(value, str):
         return Input({"distribution": "constant", "value": value})
+    if isinstance(value, np.ndarray) and value.ndim == 0:
+        return as_input(value.item(), name)
     if isinstance(value, (bool, np.bool_)):
         raise TypeError(f"{name}: True and False are no values of a quantity")
     if isinstance(value, (int, float, np.integer, np.floating)):

@@ -448,7 +448,7 @@ def _shorthand(estimate: float, u: float) -> str:
     """An estimate with its standard uncertainty in parentheses (JCGM 100, 7.2.2)."""
     if not (u > 0 and math.isfinite(u) and math.isfinite(estimate)):
         return f"{estimate:.7g}"
-    y, digits = _gumption.rounded(estimate, u)
+    y, digits = _gumption.printed(estimate, u)
     if "e" in y or "e" in digits:
         return f"({y} +/- {digits})"
     # with a point in it the uncertainty is written as it is

@@ -3,27 +3,32 @@
 from __future__ import annotations
 
 import hashlib
-import html
 import json
 import os
 import uuid
-from collections.abc import Iterator, Mapping
-from typing import TYPE_CHECKING, Any, Union
+from collections.abc import Callable, Iterator, Mapping
+from typing import TYPE_CHECKING, Any, Generic, TypeVar, cast
 
 import numpy as np
 import numpy.typing as npt
 
-from gumption import _gumption
+from gumption import _gumption, _notebook
 from gumption._frames import frame_of
+from gumption._notebook import Page
 from gumption._quantity import Quantity
 from gumption._samples import Samples, SampleTable
 from gumption._shapes import Input
 
 if TYPE_CHECKING:
+    from typing_extensions import TypeVar as TypeVarWithDefault
+
     from gumption._model import Model
 
-#: A figure: a number, or with conditions one for each row of these.
-Figure = Union[float, npt.NDArray[np.float64]]
+    #: A figure: a number, with conditions an array of one for each row, or either where the type of the
+    #: model says neither.
+    Figure_co = TypeVarWithDefault("Figure_co", default=Any, covariant=True)
+else:
+    Figure_co = TypeVar("Figure_co", covariant=True)
 
 #: Formats of pages and answers, by the extensions of files.
 FORMATS = {
@@ -41,23 +46,15 @@ def format_of(path: str | os.PathLike[str]) -> str:
     return FORMATS[extension]
 
 
-def framed(page: str) -> str:
-    """A page in its own frame, so that its style and that of a notebook do not interfere."""
-    return (
-        f'<iframe srcdoc="{html.escape(page)}" style="width:100%;height:36em;border:0" '
-        'title="gumption"></iframe>'
-    )
-
-
-class _Figures:
+class _Figures(Generic[Figure_co]):
     """Results for one output by one method."""
 
     _method = ""
 
-    def __init__(self, output: Output) -> None:
+    def __init__(self, output: Output[Figure_co]) -> None:
         self._output = output
 
-    def _figure(self, name: str) -> Figure:
+    def _figure(self, name: str) -> Figure_co:
         return self._output._column(f"{self._method}.{name}")
 
     def _pair(self, low: str, high: str) -> npt.NDArray[np.float64]:
@@ -69,7 +66,7 @@ class _Figures:
         return "\n".join(lines)
 
 
-class Gum(_Figures):
+class Gum(_Figures[Figure_co]):
     """One output by the law of propagation (JCGM 100).
 
     With conditions every value is an array with one entry per row. Undefined values are NaN.
@@ -78,27 +75,27 @@ class Gum(_Figures):
     _method = "gum"
 
     @property
-    def estimate(self) -> Figure:
+    def estimate(self) -> Figure_co:
         """Estimate y."""
         return self._figure("estimate")
 
     @property
-    def standard_uncertainty(self) -> Figure:
+    def standard_uncertainty(self) -> Figure_co:
         """Combined standard uncertainty u(y)."""
         return self._figure("standard_uncertainty")
 
     @property
-    def dof(self) -> Figure:
+    def dof(self) -> Figure_co:
         """Effective degrees of freedom; infinite if those of every contribution are."""
         return self._figure("dof")
 
     @property
-    def coverage_factor(self) -> Figure:
+    def coverage_factor(self) -> Figure_co:
         """Coverage factor k."""
         return self._figure("coverage_factor")
 
     @property
-    def expanded_uncertainty(self) -> Figure:
+    def expanded_uncertainty(self) -> Figure_co:
         """Expanded uncertainty U = k u(y)."""
         return self._figure("expanded_uncertainty")
 
@@ -108,7 +105,7 @@ class Gum(_Figures):
         return self._pair("low", "high")
 
 
-class MonteCarlo(_Figures):
+class MonteCarlo(_Figures[Figure_co]):
     """One output by the Monte Carlo method (JCGM 101).
 
     With conditions every value is an array with one entry per row. Undefined values are NaN.
@@ -117,22 +114,22 @@ class MonteCarlo(_Figures):
     _method = "monte_carlo"
 
     @property
-    def trials(self) -> Figure:
+    def trials(self) -> Figure_co:
         """Number of trials."""
         return self._figure("trials")
 
     @property
-    def estimate(self) -> Figure:
+    def estimate(self) -> Figure_co:
         """Mean of the trials."""
         return self._figure("estimate")
 
     @property
-    def standard_uncertainty(self) -> Figure:
+    def standard_uncertainty(self) -> Figure_co:
         """Standard deviation of the trials."""
         return self._figure("standard_uncertainty")
 
     @property
-    def median(self) -> Figure:
+    def median(self) -> Figure_co:
         """Median of the trials."""
         return self._figure("median")
 
@@ -147,12 +144,12 @@ class MonteCarlo(_Figures):
         return self._pair("shortest_low", "shortest_high")
 
     @property
-    def skewness(self) -> Figure:
+    def skewness(self) -> Figure_co:
         """Skewness of the trials."""
         return self._figure("skewness")
 
     @property
-    def excess_kurtosis(self) -> Figure:
+    def excess_kurtosis(self) -> Figure_co:
         """Excess kurtosis of the trials."""
         return self._figure("excess_kurtosis")
 
@@ -165,8 +162,15 @@ class Budget(Mapping[str, Any]):
     ``group``, ``dof``, ``sensitivity``, ``contribution`` and ``share``; they are attributes as well.
     """
 
-    def __init__(self, columns: Mapping[str, Any]) -> None:
+    def __init__(self, columns: Mapping[str, Any], shown: str | Callable[[], str] = "") -> None:
         self._columns = dict(columns)
+        # the table of the page, which is made when it is wanted
+        self._shown = shown
+
+    def _table(self) -> str:
+        if not isinstance(self._shown, str):
+            self._shown = self._shown()
+        return self._shown
 
     def __getitem__(self, name: str) -> Any:
         return self._columns[name]
@@ -188,6 +192,19 @@ class Budget(Mapping[str, Any]):
 
         return pandas.DataFrame(self._columns).set_index("input")
 
+    def latex(self) -> str:
+        """The budget as an array of LaTeX, rounded as on the pages."""
+        return _notebook.latex_table(self._table())
+
+    def _repr_html_(self) -> str:
+        return _notebook.whole([_notebook.light(self._table())])
+
+    def _repr_latex_(self) -> str:
+        return self.latex()
+
+    def __reduce__(self) -> Any:
+        return Budget, (self._columns, self._table())
+
     def __repr__(self) -> str:
         shown = ("input", "estimate", "standard_uncertainty", "sensitivity", "contribution", "share")
         rows = [list(shown)]
@@ -197,14 +214,14 @@ class Budget(Mapping[str, Any]):
         return "\n".join("  ".join(c.rjust(w) for c, w in zip(row, widths)) for row in rows)
 
 
-class Output(Quantity):
+class Output(Quantity, Generic[Figure_co]):
     """One output of a result.
 
     It can be an input of another model, with its distribution and with its correlations with other
     outputs of the same result and with other results.
     """
 
-    def __init__(self, result: Result, name: str) -> None:
+    def __init__(self, result: Result[Figure_co], name: str) -> None:
         super().__init__(name)
         self._result = result
         self.name = name
@@ -214,7 +231,7 @@ class Output(Quantity):
     def _unit(self) -> str:
         return self.unit
 
-    def _evaluated(self) -> Output:
+    def _evaluated(self) -> Output[Figure_co]:
         return self
 
     def _figure(self, name: str) -> Any:
@@ -223,17 +240,17 @@ class Output(Quantity):
     def __reduce__(self) -> Any:
         return Output, (self._result, self.name)
 
-    def _column(self, name: str) -> Figure:
+    def _column(self, name: str) -> Figure_co:
         column: npt.NDArray[np.float64] = self._result._run.column(self.name, name)
-        return column if self._result._run.swept else float(column[0])
+        return cast("Figure_co", column if self._result._run.swept else float(column[0]))
 
     @property
-    def gum(self) -> Gum:
+    def gum(self) -> Gum[Figure_co]:
         """By the law of propagation."""
         return Gum(self)
 
     @property
-    def monte_carlo(self) -> MonteCarlo:
+    def monte_carlo(self) -> MonteCarlo[Figure_co]:
         """By the Monte Carlo method."""
         return MonteCarlo(self)
 
@@ -255,7 +272,12 @@ class Output(Quantity):
             raise _gumption.ModelError(
                 f"`{self.name}` has no budget: a sensitivity coefficient is not finite"
             )
-        return Budget(columns)
+        return Budget(columns, lambda: self._page_parts(row)[2])
+
+    def _page_parts(self, row: int = 0) -> tuple[str, str, str, str, str]:
+        """Title, result, budget, conclusions and comparison of the methods, as on the page."""
+        place = list(self._result).index(self.name)
+        return self._result._run.page_parts(row)[place]
 
     @property
     def gum_valid(self) -> bool | None | npt.NDArray[np.float64]:
@@ -263,13 +285,13 @@ class Output(Quantity):
 
         With conditions an array of 1, 0 and NaN.
         """
-        found = self._column("validation.gum_valid")
+        found: Any = self._column("validation.gum_valid")
         if isinstance(found, float):
             return None if np.isnan(found) else bool(found)
-        return found
+        return np.asarray(found)
 
     @property
-    def conformance_probability(self) -> Figure:
+    def conformance_probability(self) -> Figure_co:
         """The probability of conformance to the output's tolerance; NaN without a tolerance."""
         return self._column("conformity.probability")
 
@@ -293,6 +315,39 @@ class Output(Quantity):
         assert isinstance(output, dict)
         return output
 
+    def latex(self, row: int = 0) -> str:
+        """The estimate with its standard uncertainty in the mathematical mode of LaTeX.
+
+        Parameters
+        ----------
+        row : int, default 0
+            The row of conditions, counted from 0.
+        """
+        x, u = (
+            float(np.atleast_1d(np.asarray(figure))[row])
+            for figure in (self.gum.estimate, self.gum.standard_uncertainty)
+        )
+        return _notebook.latex_value(self.name, self.unit, x, u)
+
+    def _sweep(self) -> str:
+        """A table of the rows of conditions."""
+        units = dict(self._result._run.conditions)
+        before = {f"{name} in {units[name]}": values for name, values in self._result.conditions.items()}
+        figures: Any = self.gum
+        return _notebook.title(f"{self.name} in {self.unit}") + _notebook.estimates(
+            before, figures.estimate, figures.standard_uncertainty, figures.expanded_uncertainty
+        )
+
+    def _repr_html_(self) -> str:
+        if self._result._run.swept:
+            return _notebook.whole([self._sweep()])
+        name, *parts = self._page_parts()
+        return _notebook.whole([_notebook.title(name), *map(_notebook.light, parts)])
+
+    def _repr_latex_(self) -> str | None:
+        # an array of estimates is no value
+        return None if self._result._run.swept else f"$${self.latex()}$$"
+
     def _as_input(self) -> Input:
         text = self._result.saved()
         # results of different runs are told apart, and outputs of one run belong together
@@ -306,7 +361,7 @@ class Output(Quantity):
         return f"<gumption.Output {self.name} = {self}>"
 
 
-class Result(Mapping[str, Output]):
+class Result(Mapping[str, Output[Figure_co]]):
     """The result of a run: a mapping from the names of outputs to `Output` objects.
 
     A result is pickled as its model, seed and settings, and recomputed when it is needed, with the
@@ -315,7 +370,7 @@ class Result(Mapping[str, Output]):
 
     def __init__(
         self,
-        model: Model,
+        model: Model[Figure_co],
         options: Mapping[str, Any],
         run: _gumption.Run | None = None,
         identity: str | None = None,
@@ -334,7 +389,7 @@ class Result(Mapping[str, Output]):
             self._done = self.model._evaluated(self._options)
         return self._done
 
-    def __getitem__(self, name: str) -> Output:
+    def __getitem__(self, name: str) -> Output[Figure_co]:
         names = [output for output, _ in self._run.outputs]
         if name not in names:
             raise KeyError(f"there is no output {name!r}; there are {', '.join(names)}")
@@ -482,7 +537,9 @@ class Result(Mapping[str, Output]):
         else:
             _write(path, self.to(format_of(path)))
 
-    def plot(self, outputs: str | list[str] | None = None, *, row: int | None = None) -> Any:
+    def plot(
+        self, outputs: str | list[str] | None = None, *, row: int | None = None, ax: Any = None
+    ) -> Any:
         """Draw the distributions with the coverage intervals of both methods, or with conditions the
         estimates with their expanded uncertainties.
 
@@ -492,18 +549,40 @@ class Result(Mapping[str, Output]):
             The outputs; all by default.
         row : int, optional
             With conditions, the row whose distributions are drawn.
+        ax : matplotlib.axes.Axes or array of these, optional
+            Where to draw: one for each output. A new figure has them unless given.
 
         Returns
         -------
         matplotlib.figure.Figure
+            The figure of the axes.
+
+        Raises
+        ------
+        ValueError
+            If the number of axes is another than that of the outputs.
         """
         from gumption._plot import plot
 
         names = [outputs] if isinstance(outputs, str) else outputs
-        return plot(self, names if names is not None else list(self), row)
+        return plot(self, names if names is not None else list(self), row, ax)
+
+    def page(self) -> Page:
+        """The whole page with its figures, which a notebook shows in a frame."""
+        return Page(self.to("html").decode())
 
     def _repr_html_(self) -> str:
-        return framed(self.to("html").decode())
+        run = self._run
+        rest = "`page()` shows all, with its figures"
+        if run.swept:
+            return _notebook.whole([output._sweep() for output in self.values()], rest)
+        parts = run.page_parts(0)
+        shown = [[_notebook.title(name) + _notebook.light(said)] for name, said, *_ in parts]
+        budgets = [_notebook.light(budget) for _, _, budget, *_ in parts]
+        # of many outputs the results alone
+        if sum(map(len, budgets)) + sum(len(own[0]) for own in shown) <= _notebook.MOST:
+            shown = [[*own, budget] for own, budget in zip(shown, budgets)]
+        return _notebook.whole([part for own in shown for part in own], rest)
 
     def __str__(self) -> str:
         return self.to("table").decode()

@@ -8,7 +8,7 @@ from typing import Any
 import numpy as np
 import numpy.typing as npt
 
-from gumption import _gumption
+from gumption import _gumption, _notebook
 
 
 class Samples(np.ndarray):
@@ -27,6 +27,10 @@ class Samples(np.ndarray):
             The values.
         """
         return values.view(Samples)
+
+    def _repr_html_(self) -> str | None:
+        # a part of another shape, or a number, is shown as NumPy does
+        return _table({"": self}) if self.ndim == 1 and self.size > 1 else None
 
     def __arrow_c_array__(self, requested_schema: Any = None) -> tuple[Any, Any]:
         """Schema and array of the Arrow C data interface."""
@@ -52,6 +56,9 @@ class SampleTable(Mapping[str, Samples]):
     def __len__(self) -> int:
         return len(self._columns)
 
+    def _repr_html_(self) -> str:
+        return _table(self._columns)
+
     def __repr__(self) -> str:
         count = len(next(iter(self._columns.values()), ()))
         return f"<gumption.SampleTable: {count} trials of {', '.join(self._columns)}>"
@@ -70,3 +77,16 @@ class SampleTable(Mapping[str, Samples]):
     def to_numpy(self) -> npt.NDArray[np.float64]:
         """The trials as a matrix of trials x outputs."""
         return np.column_stack([np.asarray(values) for values in self._columns.values()])
+
+
+def _table(columns: Mapping[str, npt.NDArray[np.float64]]) -> str:
+    """A table of the trials of outputs by their names, rounded to their standard deviation."""
+    lines = []
+    for name, values in columns.items():
+        own = np.asarray(values)
+        deviation = float(own.std(ddof=1))
+        mean, shown = _gumption.printed(float(own.mean()), deviation)
+        ends = [_gumption.printed(float(end), deviation)[0] for end in (own.min(), own.max())]
+        lines.append([name, own.size, mean, shown, *ends])
+    headings = ["output", "trials", "mean", "standard deviation", "smallest", "largest"]
+    return _notebook.whole([_notebook.table(headings, lines, headings[1:])])

@@ -1,8 +1,9 @@
 """Input quantities: every distribution of a model file as a function.
 
 Each function returns an `Input`. Keys of a model file's input without an argument of their own are
-further keyword arguments: ``name`` (what it is called in formulas and budgets), ``about`` (the source of uncertainty in words), ``type`` (``"A"`` or
-``"B"``), ``group``, ``per`` (``"row"`` or the name of a condition), ``evidence`` and so on.
+further keyword arguments: ``name`` (what it is called in formulas and budgets), ``about`` (the source of
+uncertainty in words), ``type`` (``"A"`` or ``"B"``), ``group``, ``per`` (``"row"`` or the name of a
+condition), ``evidence`` and so on. A key that the distribution does not have is a `TypeError`.
 
 A width (``std``, ``half_width``, ``expanded``, ``scale``) is a number in the input's unit, or a
 specification such as ``"0.02 % + 2 uV"``. An estimate may be a formula of conditions as text.
@@ -10,18 +11,65 @@ specification such as ``"0.02 % + 2 uV"``. An estimate may be a formula of condi
 
 from __future__ import annotations
 
+import difflib
+import json
+import math
 import os
 import uuid
 from collections.abc import Iterable, Mapping
-from typing import Any, Union
+from functools import lru_cache
+from typing import TYPE_CHECKING, Any, Literal, TypedDict, Union
 
 import numpy as np
 import numpy.typing as npt
 
+from gumption import _gumption
 from gumption._quantity import Quantity
 
+if TYPE_CHECKING:
+    from typing_extensions import Unpack
+
 #: A number, or a text that a model file may have in its place.
-Value = Union[float, str]
+Value = Union[float, str, "np.floating[Any]", "np.integer[Any]"]
+
+
+class FurtherOfComponents(TypedDict, total=False):
+    """Keys of an input of any kind."""
+
+    name: str
+    about: str | None
+    type: Literal["A", "B"] | None
+    group: str | None
+    per: str | None
+
+
+class Further(FurtherOfComponents, total=False):
+    """Keys of an input of any distribution."""
+
+    evidence: npt.ArrayLike | str | None
+    limits: tuple[Value | None, Value | None] | list[Value | None] | None
+
+
+class FurtherOfWidth(Further, total=False):
+    """Keys of an input whose width may be a specification."""
+
+    resolution: Value | None
+    range: Value | None
+    full_scale: Value | None
+
+
+class FurtherOfLimits(FurtherOfWidth, total=False):
+    """Keys of an input within limits."""
+
+    semi_range: Value | None
+
+
+class FurtherOfReadings(Further, total=False):
+    """Keys of readings."""
+
+    resolution: Value | None
+    pooled: Mapping[str, Any] | None
+    evaluation: Literal["frequentist", "bayesian"] | None
 
 
 class Input(Quantity):
@@ -102,6 +150,16 @@ class Input(Quantity):
         """
         return {"unit": self.unit if self.unit is not None else unit, **self.spec}
 
+    def _repr_html_(self) -> str:
+        from gumption import _notebook
+
+        spec = {key: value for key, value in self.spec.items() if key != "components"}
+        lines = [*spec.items(), *([("unit", self.unit)] if self.unit is not None else [])]
+        shown = [_notebook.table(["input", ""], [(key, _notebook.stated(value)) for key, value in lines])]
+        if parts := self.spec.get("components"):
+            shown.append(_notebook.inputs({part["name"]: part for part in parts}))
+        return _notebook.whole(shown)
+
     def __repr__(self) -> str:
         return f"gumption.Input({self.spec!r}, unit={self.unit!r})"
 
@@ -129,13 +187,60 @@ def _shape(
     spec = {} if distribution is None else {"distribution": distribution}
     more = dict(more)
     name = more.pop("name", "")
+    if more:
+        _check_keys(distribution, more, fields)
+    if name:
+        _check_name(name)
+    if unit is not None:
+        _gumption.unit_scale(unit)
     for key, value in {**fields, **more}.items():
-        if value is not None:
-            spec[key] = plain(value)
+        found = plain(value)
+        if key == "dof" and found == math.inf:
+            continue
+        if isinstance(found, float) and not math.isfinite(found):
+            raise _gumption.ModelError(f"`{key}` is {found}, but a finite number is needed")
+        if found is not None:
+            spec[key] = found
     return Input(spec, unit, name=name)
 
 
-def constant(value: Value, unit: str | None = None, **more: Any) -> Input:
+@lru_cache(maxsize=4096)
+def _check_name(name: str) -> None:
+    """Whether formulas can have a name, by the engine's own word."""
+    exact = {"distribution": "constant", "value": 1}
+    probe = {"format": 1, "inputs": {name: exact}, "equations": {f"{name}_": "1"}, "outputs": {f"{name}_": {"unit": "1"}}}
+    try:
+        _gumption.Model("<name>", json.dumps(probe))
+    except _gumption.ModelError as error:
+        raise _gumption.ModelError(f"`name`: {error.errors[0]['message']}") from None
+
+
+def _check_keys(distribution: str | None, keys: Iterable[str], own: Iterable[str] = ()) -> None:
+    """Checks that an input of a distribution, or of components, has these keys.
+
+    Parameters
+    ----------
+    distribution : str or None
+        The distribution; `None` for an input with components.
+    keys : iterable of str
+        The keys that are given.
+    own : iterable of str
+        Keys of the constructor.
+    """
+    accepted = _gumption.input_keys(distribution)
+    if accepted is None:
+        # the distribution itself is unknown, which is the error of the model
+        return
+    for key in keys:
+        if key not in accepted:
+            kind = "with components" if distribution is None else f"of the distribution `{distribution}`"
+            offered = [*own, *(name for name in accepted if name not in {*own, "distribution"})]
+            near = difflib.get_close_matches(key, offered, 1)
+            right = f"did you mean `{near[0]}`?" if near else f"there are {', '.join(offered)}"
+            raise TypeError(f"an input {kind} has no key `{key}`; {right}")
+
+
+def constant(value: Value, unit: str | None = None, **more: Unpack[Further]) -> Input:
     """A quantity that is known exactly.
 
     Parameters
@@ -159,7 +264,7 @@ def normal(
     k: float | None = None,
     p: float | None = None,
     dof: float | None = None,
-    **more: Any,
+    **more: Unpack[FurtherOfWidth],
 ) -> Input:
     """A normal distribution.
 
@@ -185,19 +290,6 @@ def normal(
     return _shape("normal", unit, fields, more)
 
 
-def _limits(
-    shape: str,
-    mean: Value | None,
-    half_width: Value | None,
-    unit: str | None,
-    lower: Value | None,
-    upper: Value | None,
-    more: Mapping[str, Any],
-) -> Input:
-    fields = {"mean": mean, "half_width": half_width, "lower": lower, "upper": upper}
-    return _shape(shape, unit, fields, more)
-
-
 def rectangular(
     mean: Value | None = None,
     half_width: Value | None = None,
@@ -206,7 +298,7 @@ def rectangular(
     lower: Value | None = None,
     upper: Value | None = None,
     dof: float | None = None,
-    **more: Any,
+    **more: Unpack[FurtherOfLimits],
 ) -> Input:
     """A rectangular (uniform) distribution, by estimate and half-width or by its limits.
 
@@ -223,7 +315,8 @@ def rectangular(
     **more
         Further keys of an input in a model file.
     """
-    return _limits("rectangular", mean, half_width, unit, lower, upper, {"dof": dof, **more})
+    fields = {"mean": mean, "half_width": half_width, "lower": lower, "upper": upper, "dof": dof}
+    return _shape("rectangular", unit, fields, more)
 
 
 def triangular(
@@ -235,7 +328,7 @@ def triangular(
     upper: Value | None = None,
     mode: Value | None = None,
     dof: float | None = None,
-    **more: Any,
+    **more: Unpack[FurtherOfLimits],
 ) -> Input:
     """A triangular distribution, by estimate and half-width or by its limits.
 
@@ -254,8 +347,10 @@ def triangular(
     **more
         Further keys of an input in a model file.
     """
-    more = {"mode": mode, "dof": dof, **more}
-    return _limits("triangular", mean, half_width, unit, lower, upper, more)
+    fields = {
+        "mean": mean, "half_width": half_width, "lower": lower, "upper": upper, "mode": mode, "dof": dof,
+    }  # fmt: skip
+    return _shape("triangular", unit, fields, more)
 
 
 def trapezoidal(
@@ -267,7 +362,7 @@ def trapezoidal(
     lower: Value | None = None,
     upper: Value | None = None,
     dof: float | None = None,
-    **more: Any,
+    **more: Unpack[FurtherOfLimits],
 ) -> Input:
     """A symmetric trapezoidal distribution, by estimate and half-width or by its limits.
 
@@ -286,8 +381,10 @@ def trapezoidal(
     **more
         Further keys of an input in a model file.
     """
-    more = {"beta": beta, "dof": dof, **more}
-    return _limits("trapezoidal", mean, half_width, unit, lower, upper, more)
+    fields = {
+        "mean": mean, "half_width": half_width, "lower": lower, "upper": upper, "beta": beta, "dof": dof,
+    }  # fmt: skip
+    return _shape("trapezoidal", unit, fields, more)
 
 
 def arcsine(
@@ -297,7 +394,7 @@ def arcsine(
     *,
     lower: Value | None = None,
     upper: Value | None = None,
-    **more: Any,
+    **more: Unpack[FurtherOfLimits],
 ) -> Input:
     """An arcsine (U-shaped) distribution: a quantity that cycles sinusoidally.
 
@@ -312,11 +409,12 @@ def arcsine(
     **more
         Further keys of an input in a model file.
     """
-    return _limits("arcsine", mean, half_width, unit, lower, upper, more)
+    fields = {"mean": mean, "half_width": half_width, "lower": lower, "upper": upper}
+    return _shape("arcsine", unit, fields, more)
 
 
 def curvilinear_trapezoid(
-    lower: Value, upper: Value, inexactness: Value, unit: str | None = None, **more: Any
+    lower: Value, upper: Value, inexactness: Value, unit: str | None = None, **more: Unpack[Further]
 ) -> Input:
     """A rectangular distribution whose limits are not known exactly (JCGM 101, 6.4.3).
 
@@ -336,7 +434,7 @@ def curvilinear_trapezoid(
 
 
 def student_t(
-    mean: Value, scale: Value, dof: float, unit: str | None = None, **more: Any
+    mean: Value, scale: Value, dof: float, unit: str | None = None, **more: Unpack[FurtherOfWidth]
 ) -> Input:
     """A scaled and shifted t distribution.
 
@@ -357,7 +455,11 @@ def student_t(
 
 
 def readings(
-    values: npt.ArrayLike, unit: str | None = None, *, paired: bool | None = None, **more: Any
+    values: npt.ArrayLike,
+    unit: str | None = None,
+    *,
+    paired: bool | None = None,
+    **more: Unpack[FurtherOfReadings],
 ) -> Input:
     """Repeated readings (Type A): their mean, s/sqrt(n), and n - 1 degrees of freedom.
 
@@ -376,7 +478,7 @@ def readings(
     return _shape("readings", unit, fields, more)
 
 
-def exponential(mean: Value, unit: str | None = None, **more: Any) -> Input:
+def exponential(mean: Value, unit: str | None = None, **more: Unpack[Further]) -> Input:
     """An exponential distribution (JCGM 101, 6.4.10).
 
     Parameters
@@ -391,7 +493,7 @@ def exponential(mean: Value, unit: str | None = None, **more: Any) -> Input:
     return _shape("exponential", unit, {"mean": mean}, more)
 
 
-def gamma(shape: float, rate: float, unit: str | None = None, **more: Any) -> Input:
+def gamma(shape: float, rate: float, unit: str | None = None, **more: Unpack[Further]) -> Input:
     """A gamma distribution.
 
     Parameters
@@ -408,7 +510,7 @@ def gamma(shape: float, rate: float, unit: str | None = None, **more: Any) -> In
     return _shape("gamma", unit, {"shape": shape, "rate": rate}, more)
 
 
-def lognormal(mean: Value, std: Value, unit: str | None = None, **more: Any) -> Input:
+def lognormal(mean: Value, std: Value, unit: str | None = None, **more: Unpack[FurtherOfWidth]) -> Input:
     """A log-normal distribution.
 
     Parameters
@@ -430,7 +532,7 @@ def beta(
     *,
     lower: Value | None = None,
     upper: Value | None = None,
-    **more: Any,
+    **more: Unpack[Further],
 ) -> Input:
     """A beta distribution between 0 and 1, or between limits.
 
@@ -449,7 +551,9 @@ def beta(
     return _shape("beta", unit, fields, more)
 
 
-def log_uniform(lower: Value, upper: Value, unit: str | None = None, **more: Any) -> Input:
+def log_uniform(
+    lower: Value, upper: Value, unit: str | None = None, **more: Unpack[Further]
+) -> Input:
     """A distribution whose logarithm is rectangular.
 
     Parameters
@@ -464,7 +568,7 @@ def log_uniform(lower: Value, upper: Value, unit: str | None = None, **more: Any
     return _shape("log-uniform", unit, {"lower": lower, "upper": upper}, more)
 
 
-def poisson_count(count: int, unit: str | None = None, **more: Any) -> Input:
+def poisson_count(count: int, unit: str | None = None, **more: Unpack[Further]) -> Input:
     """The expected number of events for a count (JCGM 101, 6.4.11).
 
     Parameters
@@ -479,7 +583,7 @@ def poisson_count(count: int, unit: str | None = None, **more: Any) -> Input:
     return _shape("poisson-count", unit, {"count": count}, more)
 
 
-def samples(values: npt.ArrayLike, unit: str | None = None, **more: Any) -> Input:
+def samples(values: npt.ArrayLike, unit: str | None = None, **more: Unpack[Further]) -> Input:
     """An empirical distribution: values that are drawn with replacement.
 
     Parameters
@@ -494,7 +598,9 @@ def samples(values: npt.ArrayLike, unit: str | None = None, **more: Any) -> Inpu
     return _shape("samples", unit, {"values": np.asarray(values, dtype=float).tolist()}, more)
 
 
-def result(file: str | os.PathLike[str], output: str, unit: str | None = None, **more: Any) -> Input:
+def result(
+    file: str | os.PathLike[str], output: str, unit: str | None = None, **more: Unpack[Further]
+) -> Input:
     """An output of a saved result (``Result.save``, ``gumption run --save``).
 
     Parameters
@@ -518,7 +624,12 @@ def result(file: str | os.PathLike[str], output: str, unit: str | None = None, *
     return Input(found.spec, unit, [(name, content)], name=found.name)
 
 
-def components(mean: Value | None, parts: Mapping[str, Input], unit: str | None = None, **more: Any) -> Input:
+def components(
+    mean: Value | None,
+    parts: Mapping[str, Input],
+    unit: str | None = None,
+    **more: Unpack[FurtherOfComponents],
+) -> Input:
     """Several contributions to one quantity, by their names: calibration, resolution, drift.
 
     Parameters
@@ -553,4 +664,6 @@ def known(unit: str | None = None, **keys: Any) -> Input:
     >>> gumption.known("V", distribution="normal", mean=5, std="0.02 % + 2 uV").spec
     {'distribution': 'normal', 'mean': 5, 'std': '0.02 % + 2 uV'}
     """
+    if "distribution" in keys or "components" in keys:
+        _check_keys(keys.get("distribution"), keys)
     return _shape(None, unit, keys, {})

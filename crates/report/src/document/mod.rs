@@ -10,6 +10,7 @@ mod text;
 
 pub use beside::{FigureNames, PageWithFigures, with_figures};
 pub(super) use html::{fragment, html};
+pub use latex::equation_latex;
 pub(super) use latex::latex;
 #[cfg(test)]
 pub(crate) use latex::unit::Declared;

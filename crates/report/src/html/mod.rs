@@ -117,6 +117,16 @@ pub(super) fn bare_figure(drawing: &Drawing, size: FigureSize) -> Markup {
     }
 }
 
+/// A formula as MathML in the notation of print; a text that is no formula, as it is.
+///
+/// ```
+/// let html = gumption_report::equation_html("m/V");
+/// assert!(html.contains("<mfrac><mi>m</mi><mi>V</mi></mfrac>"), "{html}");
+/// ```
+pub fn equation_html(formula: &str) -> String {
+    in_print(Notation::Print, || mathml::equation(formula).into_string())
+}
+
 /// The style sheet of pages, for a page that contains parts of them ([`crate::page_parts`]).
 pub fn page_style() -> &'static str {
     STYLE

@@ -22,6 +22,18 @@ pub(super) fn equation(text: &str) -> String {
     }
 }
 
+/// A formula in mathematical mode, without the `$`; a text that is no formula, as text.
+///
+/// ```
+/// assert_eq!(gumption_report::equation_latex("m/V_0"), "\\frac{m}{V_{0}}");
+/// ```
+pub fn equation_latex(formula: &str) -> String {
+    match Equation::read(formula) {
+        Some(Equation { whole, uses: None }) => part(&whole),
+        _ => format!("\\mbox{{{}}}", escaped(formula)),
+    }
+}
+
 fn displayed(mathematics: &str) -> String {
     match mathematics.contains("\\frac") {
         true => format!("$\\displaystyle {mathematics}$"),

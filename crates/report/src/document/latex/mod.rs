@@ -5,6 +5,8 @@ mod equation;
 mod text;
 pub(super) mod unit;
 
+pub use equation::equation_latex;
+
 use super::beside::{FigureBeside, beside};
 use super::{Block, Document, FootPart, Head};
 use crate::sheet::{ColumnKind, Sheet, SheetColumn};
