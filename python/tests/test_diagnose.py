@@ -342,7 +342,7 @@ def test_tables_of_other_libraries() -> None:
         ({"uncertainties": {"S": 1}}, "`uncertainties` names 'S', which is none of the outputs"),
         ({"uncertainties": {"T": [0.1]}}, r"the uncertainties of 'T' have the shape \(1,\), the data \(40,\)"),
         ({"data": {"t": T, "T": T[1:]}}, "the columns of the data have different lengths"),
-        ({"inputs": {"rate": normal(0.2, 0.001, "parsec/fortnightly")}}, "fortnightly"),
+        ({"inputs": {"rate": {"distribution": "normal", "mean": 0.2, "std": 0.001, "unit": "parsec/fortnightly"}}}, "fortnightly"),
         ({"effects": {"two": {"a": 1.0, "b": 1.0}}}, "has 2 parameters; say which of them make it absent"),
         ({"effects": {"none": {}}}, "has no parameter, and the simulator can only do what a parameter lets it"),
         ({"runs": -1}, "`runs` is -1, but must be a whole number from 1 to 1000000"),

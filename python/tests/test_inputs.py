@@ -437,7 +437,7 @@ class TestKeys:
         further = getattr(_shapes, kind[1])
         keys = further.__required_keys__ | further.__optional_keys__
         assert not arguments & keys
-        engine = {*(_gumption.input_keys(distribution) or ())} - {"distribution"}
+        engine = {*(_gumption.input_keys(distribution) or ())} - {"distribution"} | {"name"}
         assert arguments | keys | ELSEWHERE.get(distribution or "", set()) == engine
 
     def test_every_constructor_is_held(self) -> None:
