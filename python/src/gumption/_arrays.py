@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 import numpy.typing as npt
 
+from gumption import _notebook
 from gumption._formula import call
 from gumption._quantities import as_input
 from gumption._quantity import Quantity, model_of
@@ -124,6 +125,12 @@ class Quantities(np.ndarray[Any, np.dtype[Any]]):
 
     def __str__(self) -> str:
         return self._written_out(" ")
+
+    def _repr_html_(self) -> str:
+        if self.ndim != 1 or any(of._is_complex for of in self._quantities()):
+            return _notebook.text(str(self))
+        units = np.broadcast_to(np.asarray(self.unit), self.shape)
+        return _notebook.whole([_notebook.estimates({"unit": units}, self.estimate, self.u, self.U)])
 
     def _written_out(self, separator: str) -> str:
         plain = np.asarray(self, dtype=object)

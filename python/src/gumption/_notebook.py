@@ -83,6 +83,11 @@ def _cell(cell: Any) -> str:
     return cell if isinstance(cell, Markup) else html.escape(str(cell))
 
 
+def formula(text: str) -> Markup:
+    """A formula, set as on the pages."""
+    return Markup(_gumption.equation_html(text))
+
+
 def equation(name: str, formula: str) -> Markup:
     """An equation, set as on the pages."""
     return Markup(f"{_gumption.equation_html(name)} = {_gumption.equation_html(formula)}")

@@ -16,7 +16,7 @@ from typing import TYPE_CHECKING, Any, NamedTuple, NoReturn
 import numpy as np
 import numpy.typing as npt
 
-from gumption import _gumption
+from gumption import _gumption, _notebook
 from gumption._formula import Term, Writer, angle_of, binary, cut, is_about
 
 if TYPE_CHECKING:
@@ -387,6 +387,21 @@ class Expression(Quantity):
     def __repr__(self) -> str:
         return f"<gumption.{type(self).__name__} {self._shown()} = {self}>"
 
+    def latex(self) -> str:
+        """The formula in the mathematical mode of LaTeX, and its estimate with the standard uncertainty."""
+        value, _, unit = str(self).partition(" ")
+        shown = f"{value}\\,{_notebook.latex(unit)}" if unit else value
+        return f"{_gumption.equation_latex(self._shown())} = {shown}"
+
+    def _repr_latex_(self) -> str:
+        return f"$${self.latex()}$$"
+
+    def _repr_html_(self) -> str:
+        value = _notebook.table(["", "estimate and standard uncertainty"], [[_notebook.formula(self._shown()), self]])
+        inputs = {name: leaf for name, leaf in formulas({"": self}, ())[1].items() if hasattr(leaf, "spec")}
+        known = {name: leaf.to_dict() for name, leaf in inputs.items()}
+        return _notebook.whole([value, *([_notebook.inputs(known)] if known else [])])
+
     def __reduce__(self) -> Any:
         return type(self), (self.symbol, self.operands, self.unit, self.literal)
 
@@ -436,6 +451,13 @@ class Comparison(Expression):
         return f"<gumption.Comparison {self._shown()}>"
 
     __str__ = __repr__
+
+    def latex(self) -> str:
+        """The comparison in the mathematical mode of LaTeX."""
+        return _gumption.equation_latex(self._shown())
+
+    def _repr_html_(self) -> str:
+        return _notebook.whole([_notebook.formula(self._shown())])
 
 
 _COMPARED = {
