@@ -379,6 +379,12 @@ impl Model {
 }
 
 impl Model {
+    /// The same of another file.
+    pub(crate) fn with_file(&self, file: ModelFile) -> Self {
+        let (source, provenance) = (Arc::clone(&self.source), Arc::clone(&self.provenance));
+        Self { source, file: Arc::new(file), provenance }
+    }
+
     /// The task with what is asked for.
     fn asked_task(&self, py: Python<'_>, asked: &RunRequest) -> PyResult<Task> {
         let mut task = self.file.task.clone();

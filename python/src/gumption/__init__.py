@@ -31,6 +31,7 @@ _HOME = {
     "_samples": ["Samples", "SampleTable"],
     "_trace": ["quantity"],
     "_budgets": ["OutputBudgets", "budgets"],
+    "_grouped_readings": ["GroupedReadings", "readings_by"],
 }  # fmt: skip
 
 _WHERE = {name: module for module, names in _HOME.items() for name in names}

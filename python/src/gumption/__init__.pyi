@@ -21,6 +21,7 @@ from gumption._diagnose import (
     effect as effect,
     runs as runs,
 )
+from gumption._grouped_readings import GroupedReadings as GroupedReadings, readings_by as readings_by
 from gumption._gumption import ModelError as ModelError
 from gumption._measurement import (
     Measurement as Measurement,
@@ -72,6 +73,7 @@ __all__ = [
     "Certificate",
     "Diagnosis",
     "Effect",
+    "GroupedReadings",
     "Gum",
     "Input",
     "Measurement",
@@ -115,6 +117,7 @@ __all__ = [
     "poisson_count",
     "quantity",
     "readings",
+    "readings_by",
     "rectangular",
     "result",
     "runs",

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import functools
 from collections.abc import Callable, Mapping
 from enum import Enum
 from typing import TYPE_CHECKING, Any
@@ -13,6 +14,12 @@ from gumption._agreement import Column, apart, scatter_of
 
 if TYPE_CHECKING:
     from gumption._measurement import Measurement
+
+
+@functools.lru_cache(maxsize=1024)
+def scale_of(unit: str) -> tuple[float, float]:
+    """`_gumption.unit_scale`, which parses the unit, kept."""
+    return _gumption.unit_scale(unit)
 
 
 class NotTheSame(_gumption.ModelError):
@@ -65,10 +72,10 @@ class BlockFunction:
     def of(self, model: _gumption.Model) -> Callable[[list[Column]], list[Column]]:
         """The function over the columns of the variables of a model."""
         variables, units = model.variables, dict([*model.inputs, *model.conditions])
-        scales = {name: _gumption.unit_scale(unit) for name, unit in units.items()}
+        scales = {name: scale_of(unit) for name, unit in units.items()}
         # components of an input are summed
         owner = [name.partition("/")[0] for name in variables] + [n for n, _ in model.conditions]
-        outputs = [(name, _gumption.unit_scale(unit)) for name, unit in model.outputs]
+        outputs = [(name, scale_of(unit)) for name, unit in model.outputs]
         check = self.measurement.check_units
 
         def called(columns: list[Column]) -> list[Column]:
@@ -151,10 +158,15 @@ class BlockFunction:
             except ArithmeticError:
                 found = dict.fromkeys(made, np.nan)
             for name, column in made.items():
-                value = _numbers(found[name], name)
-                if value.size != 1:
-                    raise ValueError(f"the function gave {value.size} values for `{name}`, not one")
-                column.append(value.item())
+                value = found[name]
+                if not isinstance(value, float):
+                    values_found = _numbers(value, name)
+                    if values_found.size != 1:
+                        raise ValueError(
+                            f"the function gave {values_found.size} values for `{name}`, not one"
+                        )
+                    value = values_found.item()
+                column.append(value)
         return {name: np.array(column) for name, column in made.items()}
 
 

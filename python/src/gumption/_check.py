@@ -136,9 +136,10 @@ def check_rows(
 ) -> None:
     """Raises an error if formulas differ from their function, in some rows of budgets."""
     count = len(outputs[0])
-    rows = np.unique(np.linspace(0, count - 1, DRAWS).astype(int)) if count else np.empty(0, int)
-    if not rows.size:
+    if not count:
         return
+    # each place once: of more rows the step is above 1
+    rows = np.linspace(0, count - 1, DRAWS).astype(int) if count > DRAWS else np.arange(count)
     names = [*model.variables, *(name for name, _ in model.conditions)]
     variables = [np.broadcast_to(np.asarray(estimates[name]), count) for name in names]
     draws = _Draws(measurement, model, {}, variables, rows.tolist())

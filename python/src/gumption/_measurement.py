@@ -15,8 +15,9 @@ from gumption import _gumption
 from gumption._arguments import Arguments
 from gumption._block import BlockFunction, Way
 from gumption._check import checked
-from gumption._frames import condition_file
+from gumption._conditions import condition_file
 from gumption._joint import identity_of
+from gumption._labels import Labels
 from gumption._model import Model, take_inputs
 from gumption._quantities import as_alone, as_known, unit_of
 from gumption._shapes import Input
@@ -221,13 +222,14 @@ class Measurement:
         if correlations:
             file["correlations"] = [list(link) for link in correlations]
         held: dict[str, bytes] = {}
+        labels: Labels | None = None
         if self.conditions:
             if conditions is None:
                 raise _gumption.ModelError(
                     f"the model has conditions ({', '.join(self.conditions)}); give their values with "
                     "`conditions=`"
                 )
-            file["conditions"], table = condition_file(conditions, self.conditions)
+            file["conditions"], table, labels = condition_file(conditions, self.conditions)
             held.update(table)
         elif conditions is not None:
             raise _gumption.ModelError(
@@ -248,7 +250,9 @@ class Measurement:
         if settings:
             file["monte_carlo"] = settings
         file["outputs"] = outputs
-        return self._model(file, known, held, aliases)
+        made = self._model(file, known, held, aliases)
+        made._labels = labels
+        return made
 
     def _model(
         self,
