@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from gumption import _gumption
-from gumption._agreement import Column, apart, scatter_of
+from gumption._agreement import Column, apart
 
 if TYPE_CHECKING:
     from gumption._measurement import Measurement
@@ -124,7 +124,7 @@ class BlockFunction:
                 changed = {own: c * by(i) for i, (own, c) in enumerate(first.items())}
                 return self._of_draws(changed, alone)[name]
 
-            if apart(values[:1], truth[name], scatter_of(values), moved).any():
+            if apart(values[:1], truth[name], values, moved).any():
                 at = ", ".join(f"{own} = {column[0]:.10g}" for own, column in first.items())
                 raise NotTheSame(
                     f"called with columns of draws `{self.measurement.title}` gives {values[0]:.10g} for "

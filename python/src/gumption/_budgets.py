@@ -15,7 +15,7 @@ from gumption._grouped_readings import GroupedReadings, is_groupby, of_groupby
 from gumption._labels import KeyLabels, Labels, aligned, in_groups
 from gumption._measurement import Measurement
 from gumption._model import Model
-from gumption._quantities import is_pint, is_ufloat, pint_unit
+from gumption._quantities import is_pint, is_ufloat
 from gumption._result import MonteCarlo
 from gumption._tables import Table
 
@@ -206,7 +206,8 @@ def budgets(
     broadcast by their named dimensions, and `OutputBudgets.to_xarray` has their coordinates.
     """
     measurement = model if isinstance(model, Measurement) else None
-    columns = _by_name(model, inputs or {}, columns, (coverage, k, real_dof or None, trials, seed, executor))
+    options = (coverage, k, real_dof or None, trials, seed, executor)
+    columns = _by_name(model, inputs or {}, columns, options)
     if isinstance(model, Measurement):
         missing = [n for n in [*model.inputs, *model.conditions] if n not in columns]
         if missing:
@@ -229,8 +230,9 @@ def budgets(
         check_rows(measurement, model._rust, estimates, [of["estimate"] for of in found])
     drawn: dict[str, _Trials] = {}
     if trials is not None:
-        options = {"coverage": coverage, "k": k, "real_dof": real_dof, "trials": trials, "seed": seed}
-        drawn = _drawn(model, given, {n: v for n, v in options.items() if v is not None}, executor)
+        asked = {name: value for name, value in zip(OPTIONS, options) if value is not None}
+        asked.pop("executor", None)
+        drawn = _drawn(model, given, asked, executor)
     outputs = model.outputs.items()
     return _All({n: OutputBudgets(n, unit, of, labels, drawn.get(n)) for (n, unit), of in zip(outputs, found)})
 
@@ -375,7 +377,8 @@ def _parts(value: Any, name: str) -> tuple[_Part, _Part, _Part]:
 
 def _unit(value: Any) -> str | None:
     """The unit stored with a column."""
-    return None if isinstance(value, (int, float, list, np.ndarray)) and not hasattr(value, "unit") else unit_of(value)
+    is_plain = isinstance(value, (int, float, list)) or type(value) is np.ndarray
+    return None if is_plain else unit_of(value)
 
 
 def _with_uncertainty(value: Any) -> tuple[Any, Any]:
@@ -407,7 +410,8 @@ def _column(part: _Part, unit: str | None, name: str, what: str) -> Any:
         try:
             array = _gumption.convert(array, own, unit, what != PARTS[0])
         except _gumption.ModelError as error:
+            said = str(error).removeprefix("gumption: ")
             raise _gumption.ModelError(
-                f"the {what} of `{name}` is in {own}, but the model takes {unit}: {str(error).removeprefix('gumption: ')}"
+                f"the {what} of `{name}` is in {own}, but the model takes {unit}: {said}"
             ) from None
     return float(array[0]) if np.ndim(value) == 0 else array

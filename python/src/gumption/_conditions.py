@@ -24,9 +24,7 @@ def condition_file(
     own = {name: unit_of(found[name]) or unit for name, unit in units.items()}
     for name, unit in units.items():
         if not _gumption.units_fit(own[name], unit):
-            raise _gumption.ModelError(
-                f"the column `{name}` is in {own[name]}, but the model takes {unit}"
-            )
+            raise _gumption.ModelError(f"the column `{name}` is in {own[name]}, but the model takes {unit}")
     rows, labels = aligned([(name, found[name]) for name in units])
     if isinstance(labels, AxisLabels) and hasattr(table, "data_vars"):
         labels = labels.with_attributes(table)

@@ -60,9 +60,7 @@ class GroupedReadings:
             return figures
         for key in set(self.keys) ^ set(other.keys):
             has, lacks = (name, of) if key in self.keys else (of, name)
-            raise _gumption.ModelError(
-                f"`{has}` has readings of the group {key!r}, and `{lacks}` has none"
-            )
+            raise _gumption.ModelError(f"`{has}` has readings of the group {key!r}, and `{lacks}` has none")
         place = {key: i for i, key in enumerate(self.keys)}
         order = [place[key] for key in other.keys]
         mean, u, dof = (figure[order] for figure in figures)
@@ -139,7 +137,7 @@ def is_groupby(value: object) -> bool:
 def of_groupby(grouped: Any, unit: str | None = None) -> GroupedReadings:
     """The readings of a grouped column of ``pandas``."""
     if type(grouped).__name__ == "DataFrameGroupBy":
-        raise TypeError("name the column of the readings: frame.groupby(...)[\"reading\"]")
+        raise TypeError('name the column of the readings: frame.groupby(...)["reading"]')
     mean, s, n = (getattr(grouped, name)() for name in ("mean", "std", "count"))
     if not hasattr(mean, "index") or hasattr(mean, "columns"):
         raise TypeError("the groups are to be the index: leave `as_index=False` out of `groupby`")

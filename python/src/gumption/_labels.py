@@ -172,7 +172,7 @@ def _broadcast(
         except ValueError as error:
             raise _gumption.ModelError(
                 f"`{arrays[i][0]}` has other coordinates than the arrays before it; give "
-                f"`xarray.align(..., join=\"inner\")` of them, or say with `.sel` or `.reindex_like` which "
+                f'`xarray.align(..., join="inner")` of them, or say with `.sel` or `.reindex_like` which '
                 f"are meant ({error})"
             ) from None
     broadcast = xarray.broadcast(*(value for _, value in arrays))

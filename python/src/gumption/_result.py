@@ -414,7 +414,8 @@ class Result(Table, Mapping[str, Output]):
         axes = Axes(("row",), (self.rows,), {}) if self._run.swept else Axes((), (), {})
         dimensions, shape, coordinates, attributes, kept = axes if labels is None else labels.axes()
         units = self._units()
-        own = {"output": outputs, **{n: ("output", columns.pop(n)[: len(outputs)]) for n in ("unit", "equation")}}
+        of_outputs = {name: columns.pop(name)[: len(outputs)] for name in ("unit", "equation")}
+        own = {"output": outputs, **{name: ("output", texts) for name, texts in of_outputs.items()}}
         variables = {}
         for name, column in columns.items():
             values, about = np.asarray(column), dict(kept.get(name, {}))
