@@ -123,16 +123,17 @@ pub(crate) fn in_rows(
     let mut task = file.task.clone();
     let given = Given::of(&task, columns)?;
     let first = first_row(py, &task)?;
+    let of_row = |variable: usize, known: &[Known; 3], row| {
+        let name = &task.variables[variable].name;
+        distribution(known, row).map_err(|reason| argument(py, format!("`{name}`: {reason}")))
+    };
+    // what is the same in all rows is kept once; of others nothing
     let mut shared = Vec::with_capacity(task.variables.len());
-    for (variable, (own, known)) in
-        task.variables.iter().zip(first.distributions.iter().zip(&given.variables))
-    {
-        let wrong = |reason| argument(py, format!("`{}`: {reason}", variable.name));
+    for (variable, (own, known)) in first.distributions.iter().zip(&given.variables).enumerate() {
         shared.push(match known {
             None => Some(Arc::clone(own)),
-            // what is the same in all rows is kept once
             Some(known) if known.iter().all(|known| known.rows().is_none()) => {
-                Some(distribution(known, 0).map_err(wrong)?)
+                Some(of_row(variable, known, 0)?)
             }
             Some(_) => None,
         });
@@ -142,16 +143,14 @@ pub(crate) fn in_rows(
         let conditions = given.conditions.iter().zip(&first.conditions);
         let conditions =
             conditions.map(|(known, own)| known.as_ref().map_or(*own, |known| known.at(row)));
-        let distributions = shared.iter().zip(&given.variables).zip(&task.variables).map(
-            |((shared, known), variable)| match (shared, known) {
-                (None, Some(known)) => distribution(known, row)
-                    .map_err(|reason| argument(py, format!("`{}`: {reason}", variable.name))),
-                (Some(shared), _) => Ok(Arc::clone(shared)),
-                (None, None) => unreachable!("a variable that is not given is shared"),
-            },
-        );
-        let distributions = distributions.collect::<PyResult<_>>()?;
-        rows.push(Row { conditions: conditions.collect(), distributions });
+        let mut distributions = Vec::with_capacity(shared.len());
+        for (variable, (shared, known)) in shared.iter().zip(&given.variables).enumerate() {
+            match (shared, known) {
+                (None, Some(known)) => distributions.push(of_row(variable, known, row)?),
+                (shared, _) => distributions.extend(shared.clone()),
+            }
+        }
+        rows.push(Row { conditions: conditions.collect(), distributions: distributions.into() });
     }
     task.rows = rows;
     task.swept = true;

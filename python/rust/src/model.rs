@@ -21,7 +21,11 @@ use crate::errors::{argument, failed};
 use crate::function::PythonFunction;
 use crate::parts::Parts;
 use crate::run::{Note, Ran, Run, notes};
-use crate::supervised::{Watch, supervised, supervised_within};
+use crate::supervised::{Watch, at_once, supervised, supervised_within};
+
+/// A text of at most so many bytes that names no files is read in less than a millisecond, and without
+/// calibration functions nothing in it is large enough for several threads.
+const SHORT: usize = 16 << 10;
 
 /// What a model is read from.
 #[derive(Debug)]
@@ -205,8 +209,14 @@ impl Model {
             let files = files.holding(&source.held).with_readings(readings.as_ref());
             files.model_text(&source.name, &source.text, &source.folder, &overrides)
         };
-        // on threads of this process: a forked child has none of its parent's
-        let read = supervised_within(py, &AtomicBool::new(false), read)?;
+        let has_none = |key| !source.text.contains(key);
+        let is_short = source.text.len() <= SHORT && ["\"file\"", "\"fits\""].iter().all(has_none);
+        let read = if is_short {
+            at_once(py, read)?
+        } else {
+            // on threads of this process: a forked child has none of its parent's
+            supervised_within(py, &AtomicBool::new(false), read)?
+        };
         let file = read.map_err(|found| failed(py, &Failure::Diagnostics(found)))?;
         let provenance = Provenance::of(&file.source.text, &file.files);
         Ok(Self {
