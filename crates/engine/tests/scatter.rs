@@ -26,7 +26,7 @@ fn run(task: &mut Task, seed: u64, trials: u64) -> Evaluation {
 }
 
 fn figures(task: &mut Task, seed: u64, trials: u64) -> MonteCarlo {
-    run(task, seed, trials).rows[0].outputs[0].monte_carlo.clone().unwrap()
+    *run(task, seed, trials).rows[0].outputs[0].monte_carlo.clone().unwrap()
 }
 
 const SEEDS: u64 = 60;

@@ -157,7 +157,9 @@ pub(crate) fn in_rows(
     // parts of a run of other columns are parts of another run
     let mut content = Vec::new();
     let variables = given.variables.iter().flatten().flatten();
-    variables.chain(given.conditions.iter().flatten()).for_each(|known| known.write_to(&mut content));
+    variables
+        .chain(given.conditions.iter().flatten())
+        .for_each(|known| known.write_to(&mut content));
     let mut files = file.files.clone();
     files.push(("columns".to_owned(), bytes::sha256(&content).into_bytes()));
     Ok(model.get().with_file(ModelFile {
