@@ -125,15 +125,15 @@ pub(crate) fn units_fit(first: &str, second: &str) -> bool {
 pub(crate) fn convert<'py>(
     py: Python<'py>,
     values: PyReadonlyArray1<'py, f64>,
-    from: &str,
-    to: &str,
+    unit: &str,
+    wanted: &str,
     are_differences: bool,
 ) -> PyResult<Bound<'py, PyArray1<f64>>> {
     let parse = |text: &str| {
         let parsed = Unit::parse(text);
         parsed.map_err(|error| argument(py, format!("the unit `{text}`: {error}")))
     };
-    let (from, to) = (parse(from)?, parse(to)?);
+    let (from, to) = (parse(unit)?, parse(wanted)?);
     let values = values.as_array();
     let values = values.iter();
     let converted: Result<Vec<f64>, _> = if are_differences {

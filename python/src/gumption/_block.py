@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import functools
 from collections.abc import Callable, Mapping
 from enum import Enum
 from typing import TYPE_CHECKING, Any
@@ -16,10 +15,15 @@ if TYPE_CHECKING:
     from gumption._measurement import Measurement
 
 
-@functools.lru_cache(maxsize=1024)
+#: Units that were parsed before.
+_SCALES: dict[str, tuple[float, float]] = {}
+
+
 def scale_of(unit: str) -> tuple[float, float]:
     """`_gumption.unit_scale`, which parses the unit, kept."""
-    return _gumption.unit_scale(unit)
+    if unit not in _SCALES:
+        _SCALES[unit] = _gumption.unit_scale(unit)
+    return _SCALES[unit]
 
 
 class NotTheSame(_gumption.ModelError):

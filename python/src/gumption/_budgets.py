@@ -233,8 +233,12 @@ def budgets(
         asked = {name: value for name, value in zip(OPTIONS, options) if value is not None}
         asked.pop("executor", None)
         drawn = _drawn(model, given, asked, executor)
-    outputs = model.outputs.items()
-    return _All({n: OutputBudgets(n, unit, of, labels, drawn.get(n)) for (n, unit), of in zip(outputs, found)})
+    return _All(
+        {
+            name: OutputBudgets(name, unit, of, labels, drawn.get(name))
+            for (name, unit), of in zip(model.outputs.items(), found)
+        }
+    )
 
 
 def _by_name(

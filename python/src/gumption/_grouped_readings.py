@@ -58,8 +58,11 @@ class GroupedReadings:
         figures = (self.mean, self.standard_uncertainty, self.dof)
         if self is other:
             return figures
-        for key in set(self.keys) ^ set(other.keys):
-            has, lacks = (name, of) if key in self.keys else (of, name)
+        groups, others = dict.fromkeys(self.keys), dict.fromkeys(other.keys)
+        for key in {**groups, **others}:
+            if key in groups and key in others:
+                continue
+            has, lacks = (name, of) if key in groups else (of, name)
             raise _gumption.ModelError(f"`{has}` has readings of the group {key!r}, and `{lacks}` has none")
         place = {key: i for i, key in enumerate(self.keys)}
         order = [place[key] for key in other.keys]
@@ -104,7 +107,8 @@ def readings_by(table: Any, by: str | Sequence[str], values: str, unit: str | No
     for name in [*names, values]:
         if name not in found:
             raise _gumption.ModelError(f"the table has no column `{name}`; it has {', '.join(found)}")
-    if hasattr(table, "groupby"):
+    if hasattr(table, "iloc"):
+        # of pandas
         return of_groupby(table.groupby(names[0] if len(names) == 1 else names)[values], unit)
     readings = numbers(found[values], values)
     lists = [_list(found[name]) for name in names]
