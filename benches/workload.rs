@@ -131,7 +131,7 @@ fn result_in_columns(budgets: &[Budgets]) -> Value {
 }
 
 fn trials_made(evaluation: &Evaluation) -> Option<u64> {
-    Some(evaluation.rows.first()?.outputs.first()?.monte_carlo.as_ref()?.trials)
+    Some(evaluation.rows.first()?.outputs.first()?.monte_carlo.as_deref()?.trials)
 }
 
 /// A line on standard output; an error if nobody reads it any more.

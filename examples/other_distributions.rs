@@ -36,7 +36,7 @@ pub(crate) fn task(trials: u64) -> Result<Task, Box<dyn Error>> {
 
 /// Mean, standard deviation and 95 % coverage interval of the speed in a gust, in m/s.
 pub(crate) fn figures(evaluation: &Evaluation) -> Option<[f64; 4]> {
-    let found = evaluation.rows.first()?.outputs.first()?.monte_carlo.as_ref()?;
+    let found = evaluation.rows.first()?.outputs.first()?.monte_carlo.as_deref()?;
     let [low, high] = found.symmetric_interval;
     Some([found.estimate?, found.standard_uncertainty?, low, high])
 }

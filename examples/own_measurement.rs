@@ -42,7 +42,7 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
     };
     let result = evaluate(&Task::of(cylinder, Settings::default())?, &Control::default())?;
     let density = &result.rows[0].outputs[0];
-    let (gum, monte_carlo) = (density.gum.as_ref(), density.monte_carlo.as_ref());
+    let (gum, monte_carlo) = (density.gum.as_ref(), density.monte_carlo.as_deref());
     let (gum, monte_carlo) = gum.zip(monte_carlo).ok_or("no result")?;
     println!("density {:.1} kg/m^3, u {:.1} kg/m^3", gum.estimate, gum.standard_uncertainty);
     println!("95 % coverage interval by Monte Carlo {:.1?}", monte_carlo.symmetric_interval);

@@ -19,7 +19,7 @@
 //! };
 //! let evaluation = evaluate(&Task::of(plane, Settings::default())?, &Control::default())?;
 //! let a_x = &evaluation.rows[0].outputs[0];
-//! let (gum, trials) = (a_x.gum.as_ref().unwrap(), a_x.monte_carlo.as_ref().unwrap());
+//! let (gum, trials) = (a_x.gum.as_ref().unwrap(), a_x.monte_carlo.as_deref().unwrap());
 //! // 10 sin(35 deg) cos(30 deg) m/s^2; u from the three contributions
 //! assert!((gum.estimate - 4.967_318).abs() < 1e-6);
 //! assert!((gum.standard_uncertainty - 0.009_172).abs() < 1e-6);
@@ -76,7 +76,7 @@
 //!     .build()?;
 //! let evaluation = evaluate(&task, &Control::default())?;
 //! let series = &evaluation.rows[0].outputs[0];
-//! let (gum, trials) = (series.gum.as_ref().unwrap(), series.monte_carlo.as_ref().unwrap());
+//! let (gum, trials) = (series.gum.as_ref().unwrap(), series.monte_carlo.as_deref().unwrap());
 //! // u = 0.1 ohm sqrt(1 + 1 + 2 * 0.5); that of 1e5 trials scatters by 0.22 %
 //! let u = 0.03_f64.sqrt() * 1e-3;
 //! assert!((gum.standard_uncertainty / u - 1.0).abs() < 1e-14);

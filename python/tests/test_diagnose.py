@@ -270,7 +270,7 @@ def test_runs_that_were_made_before() -> None:
         (lambda T: {"S": T}, "the simulator gives `S`, but the outputs are T"),
         (lambda T: {}, "the simulator gives no `T`"),
         (lambda T: T, "a table of columns is needed"),
-        (lambda T: {"T": ["warm"] * len(T)}, "could not convert string to float"),
+        (lambda T: {"T": ["warm"] * len(T)}, "ModelError: `T` has values of the type <U4, but numbers"),
     ],
 )
 def test_what_a_simulator_can_do_wrong(wrong: Any, said: str) -> None:

@@ -51,7 +51,7 @@ fn run(task: &Task, rule: StoppingRule, seed: u64, digits: u32) -> MonteCarlo {
     task.settings.digits = digits;
     let control = Control::default().with_threads(1);
     let evaluation = evaluate(&task, &control).unwrap();
-    evaluation.rows[0].outputs[0].monte_carlo.clone().unwrap()
+    *evaluation.rows[0].outputs[0].monte_carlo.clone().unwrap()
 }
 
 /// Estimate, standard uncertainty and ends, as errors.

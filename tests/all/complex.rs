@@ -26,7 +26,7 @@ fn bits(evaluation: &Evaluation) -> Vec<u64> {
     let outputs = &evaluation.rows[0].outputs;
     let of = |output: &gumption::propagate::OutputEvaluation| {
         let gum = output.gum.as_ref().expect("a result");
-        let trials = output.monte_carlo.as_ref().expect("trials");
+        let trials = output.monte_carlo.as_deref().expect("trials");
         let [low, high] = trials.symmetric_interval;
         [gum.estimate, gum.standard_uncertainty, trials.estimate.unwrap_or(f64::NAN), low, high]
             .map(f64::to_bits)

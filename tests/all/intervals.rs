@@ -101,7 +101,7 @@ fn contents_follow_beta(trials: u64, per_mille: u64, seeds: u64, control: &Contr
         for ((output, exact), contents) in
             evaluation.rows[0].outputs.iter().zip(EXACT).zip(&mut contents)
         {
-            let [low, high] = output.monte_carlo.as_ref().expect("trials").symmetric_interval;
+            let [low, high] = output.monte_carlo.as_deref().expect("trials").symmetric_interval;
             contents.push(exact(high) - exact(low));
         }
     }
@@ -158,7 +158,7 @@ fn shortest_intervals_hold_what_they_say() {
     let task = task(MODEL, 200_000, 0.95);
     let evaluation = evaluate(&task, &Control::default()).expect("an evaluation");
     for (output, exact) in evaluation.rows[0].outputs.iter().zip(EXACT) {
-        let figures = output.monte_carlo.as_ref().expect("trials");
+        let figures = output.monte_carlo.as_deref().expect("trials");
         let length = |[low, high]: [f64; 2]| high - low;
         assert!(length(figures.shortest_interval) <= length(figures.symmetric_interval));
         let [low, high] = figures.shortest_interval;
@@ -166,7 +166,7 @@ fn shortest_intervals_hold_what_they_say() {
         // for the optimism and make a false failure less likely than 1e-9
         assert!((exact(high) - exact(low) - 0.95).abs() < 4.9e-3);
     }
-    let exponential = evaluation.rows[0].outputs[4].monte_carlo.as_ref().expect("trials");
+    let exponential = evaluation.rows[0].outputs[4].monte_carlo.as_deref().expect("trials");
     assert!(exponential.shortest_interval[0] < 0.01);
 }
 
@@ -198,7 +198,7 @@ fn ends_are_order_statistics(trials: u64, per_mille: u64) {
     let counts = evaluate(&task(&counting, trials, p), &Control::default());
     let counts = counts.expect("an evaluation").rows.remove(0).outputs;
     let count = |output: usize| {
-        let share = counts[output].monte_carlo.as_ref().expect("trials").inside;
+        let share = counts[output].monte_carlo.as_deref().expect("trials").inside;
         (share * trials as f64).round() as u64
     };
     let q = width_in_ranks(trials, per_mille).clamp(1, trials - 1);
@@ -250,7 +250,7 @@ fn coverage_over_ten_thousand_seeds() {
         task.settings.seed = seed;
         let evaluation = evaluate(&task, &Control::default()).expect("an evaluation");
         for (number, output) in evaluation.rows[0].outputs.iter().enumerate() {
-            let figures = output.monte_carlo.as_ref().expect("trials");
+            let figures = output.monte_carlo.as_deref().expect("trials");
             let drawn = share(seed, number);
             let intervals = [figures.symmetric_interval, figures.shortest_interval];
             for (held, [low, high]) in held[number].iter_mut().zip(intervals) {

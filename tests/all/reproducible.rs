@@ -121,7 +121,7 @@ fn figures(evaluation: &Evaluation) -> Vec<[f64; 5]> {
     let outputs = evaluation.rows.iter().flat_map(|row| &row.outputs);
     outputs
         .map(|output| {
-            let found = output.monte_carlo.as_ref().expect("trials");
+            let found = output.monte_carlo.as_deref().expect("trials");
             assert!(found.shortest_exact);
             let ([a, b], [c, d]) = (found.symmetric_interval, found.shortest_interval);
             [a, b, c, d, found.median]

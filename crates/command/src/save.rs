@@ -106,7 +106,7 @@ impl Saver<'_> {
         let names: Vec<&str> =
             task.model.outputs.iter().map(|output| output.quantity.name.as_str()).collect();
         let figures = evaluation.rows.iter().flat_map(|row| &row.outputs);
-        let trials = figures.filter_map(|output| output.monte_carlo.as_ref()).map(|m| m.trials);
+        let trials = figures.filter_map(|output| output.monte_carlo.as_deref()).map(|m| m.trials);
         let header = form.header(&names, trials.max().unwrap_or(0));
         let (mut whole, mut failed) = (false, None);
         file.write_with(|out| {

@@ -144,7 +144,7 @@ fn two_readings_have_no_expectation() {
             "equations": {{"y": "a"}}, "outputs": {{"y": {{}}}}}}"#
         );
         let (evaluation, notes) = run(&text, 100_000);
-        let figures = first(&evaluation).monte_carlo.as_ref().unwrap();
+        let figures = first(&evaluation).monte_carlo.as_deref().unwrap();
         assert_eq!(figures.estimate.is_some(), estimate);
         assert_eq!((figures.standard_uncertainty, figures.errors.estimate), (None, None));
         assert_eq!(figures.location(), figures.median);
@@ -187,7 +187,7 @@ fn clause_8_is_decided() {
         task.settings.trials = Trials::Fixed(start);
         task.settings.decide_up_to = limit;
         let found = evaluate(&task, &Control::default()).unwrap();
-        let trials = first(&found).monte_carlo.as_ref().unwrap().trials;
+        let trials = first(&found).monte_carlo.as_deref().unwrap().trials;
         assert_eq!(found.settings.trials, Trials::Fixed(trials));
         let verdict = |task: &mut Task, trials: u64| {
             task.settings.trials = Trials::Fixed(trials);

@@ -26,7 +26,7 @@ fn run(task: &mut Task, seed: u64, trials: u64) -> Evaluation {
 }
 
 fn figures(task: &mut Task, seed: u64, trials: u64) -> MonteCarlo {
-    run(task, seed, trials).rows[0].outputs[0].monte_carlo.clone().unwrap()
+    *run(task, seed, trials).rows[0].outputs[0].monte_carlo.clone().unwrap()
 }
 
 const SEEDS: u64 = 60;
@@ -188,7 +188,7 @@ fn tails_without_moments_are_said_to_be_heavy() {
         for seed in 1..=3 {
             let evaluation = run(&mut task, seed, 1_000_000);
             let output = &evaluation.rows[0].outputs[0];
-            let found = output.monte_carlo.as_ref().unwrap();
+            let found = output.monte_carlo.as_deref().unwrap();
             assert_eq!((found.estimate, found.standard_uncertainty), (None, None), "{formula}");
             assert_eq!((found.errors.estimate, found.errors.standard_uncertainty), (None, None));
             assert_eq!(output.located(), Some((1.0, 0.0)), "{formula}");
@@ -205,7 +205,7 @@ fn tails_without_moments_are_said_to_be_heavy() {
     adaptive.settings.coverage = Coverage::Factor { factor: 2.0, fixed: false };
     (adaptive.settings.digits, adaptive.settings.seed) = (1, 3);
     let evaluation = evaluate(&adaptive, &Control::default()).unwrap();
-    let found = evaluation.rows[0].outputs[0].monte_carlo.as_ref().unwrap();
+    let found = evaluation.rows[0].outputs[0].monte_carlo.as_deref().unwrap();
     let end = found.adaptive.unwrap();
     assert!(found.estimate.is_none() && end.converged && found.trials < 1_000_000, "{end:?}");
     let noted = warnings(&adaptive, &evaluation);

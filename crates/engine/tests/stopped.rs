@@ -46,7 +46,7 @@ fn all_trials_that_were_counted_are_handed_back() {
             // f(a) = f(b), F(b) - F(a) = 0.95
             [1.648_721, 2.161_197, 0.140_863, 7.099_071, 0.025_934, 5.186_792],
         ]) {
-            let found = output.monte_carlo.as_ref().unwrap();
+            let found = output.monte_carlo.as_deref().unwrap();
             assert_eq!(found.trials, counted);
             let errors = &found.errors;
             let figures = [
@@ -101,7 +101,7 @@ fn a_search_that_is_stopped_answers_at_once() {
             evaluate(&task, &control).unwrap()
         });
         assert!(evaluation.stopped);
-        let found = evaluation.rows[0].outputs[0].monte_carlo.as_ref().unwrap();
+        let found = evaluation.rows[0].outputs[0].monte_carlo.as_deref().unwrap();
         // of 64 MB some 10^7 trials are kept; Stein's number of trials is known soon, and its trials are
         // then made as those of any run
         if rule == StoppingRule::Clause79 {

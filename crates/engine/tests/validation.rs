@@ -24,7 +24,7 @@ fn too_few_trials_decide_nothing() {
         let control = Control::default().with_memory(memory);
         let evaluation = evaluate(&file.task, &control).unwrap();
         let output = &evaluation.rows[0].outputs[0];
-        let figures = output.monte_carlo.as_ref().unwrap();
+        let figures = output.monte_carlo.as_deref().unwrap();
         let errors = figures.errors.symmetric_interval.map(f64::is_finite);
         let note = warnings(&file.task, &evaluation);
         let noted = note.iter().any(|w| w.code() == "interval-of-extremes");

@@ -82,7 +82,7 @@ fn result(
 
 /// The standard uncertainty of the trials, as a text; `None` where their distribution has none.
 fn drawn_uncertainty(settings: &Settings, found: &OutputEvaluation) -> Option<String> {
-    let figures = found.monte_carlo.as_ref()?;
+    let figures = found.monte_carlo.as_deref()?;
     let u = figures.standard_uncertainty?;
     Some(with_uncertainty(figures.median, u, settings.digits_on_pages()).1)
 }

@@ -110,7 +110,7 @@ fn equation(task: &Task, output: &str) -> String {
 
 fn cells(output: &OutputEvaluation) -> [String; 16] {
     let gum = output.gum.as_ref();
-    let figures = output.monte_carlo.as_ref();
+    let figures = output.monte_carlo.as_deref();
     let interval = gum.and_then(|gum| gum.interval());
     let dof = gum.and_then(|gum| match gum.dof {
         Dof::Finite(dof) => Some(dof),

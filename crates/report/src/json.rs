@@ -632,7 +632,7 @@ impl MonteCarloSide {
         output: &OutputEvaluation,
         stopped: bool,
     ) -> Option<Self> {
-        let figures: &MonteCarlo = output.monte_carlo.as_ref()?;
+        let figures: &MonteCarlo = output.monte_carlo.as_deref()?;
         let undefined = row.undefined.as_ref();
         Some(Self {
             trials: figures.trials,

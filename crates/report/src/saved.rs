@@ -120,7 +120,7 @@ pub fn saved_result(
         return Err(SaveError::NoTrials);
     }
     for (output, found) in task.model.outputs.iter().zip(&evaluated.outputs) {
-        let spread = found.monte_carlo.as_ref().and_then(|m| m.standard_uncertainty);
+        let spread = found.monte_carlo.as_deref().and_then(|m| m.standard_uncertainty);
         if linear(found).is_none() && spread.is_none() {
             return Err(SaveError::NoUncertainty { output: output.quantity.name.clone() });
         }
@@ -177,7 +177,7 @@ fn form(
     let coefficients =
         coefficients.filter_map(|c| Some((place(&c.first)?, place(&c.second)?, c.coefficient)));
     let Scores { from, step, count } = Scores::WRITTEN;
-    let trials = row.outputs.iter().find_map(|output| output.monte_carlo.as_ref());
+    let trials = row.outputs.iter().find_map(|output| output.monte_carlo.as_deref());
     let correlations = pairs.zip(&row.correlations);
     ResultForm {
         format: 1,
@@ -225,7 +225,7 @@ fn input(root: &Root) -> InputForm {
 
 /// The figures of an output; without `sensitivities` those of its trials.
 fn figures(output: &OutputEvaluation, sensitivities: Option<&Vec<f64>>) -> Option<OutputForm> {
-    let figures: &MonteCarlo = output.monte_carlo.as_ref()?;
+    let figures: &MonteCarlo = output.monte_carlo.as_deref()?;
     let gum = output.gum.as_ref().filter(|_| sensitivities.is_some());
     let (dof, dof_status) = match gum.map(|gum| gum.dof) {
         Some(Dof::Finite(dof)) => (Some(dof), DofStatus::Finite),

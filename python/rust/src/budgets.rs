@@ -3,8 +3,10 @@
 use std::collections::HashMap;
 use std::sync::Arc;
 
+use gumption::distribution::{Constant, Distribution, Normal};
+use gumption::file::{ModelFile, bytes};
 use gumption::propagate::gum::bulk::{self, BulkInput, BulkOptions, BulkValue};
-use gumption::task::Coverage;
+use gumption::task::{Coverage, Row, Task};
 use numpy::{PyArray1, PyReadonlyArray1};
 use pyo3::prelude::*;
 use pyo3::types::{PyDict, PyList};
@@ -34,6 +36,142 @@ impl Known {
             Self::Rows(values) => BulkValue::Rows(values),
         }
     }
+
+    fn at(&self, row: usize) -> f64 {
+        match self {
+            Self::Same(value) => *value,
+            Self::Rows(values) => values.get(row).copied().unwrap_or(f64::NAN),
+        }
+    }
+
+    /// The number of its rows; `None` of a number for all of them.
+    fn rows(&self) -> Option<usize> {
+        match self {
+            Self::Same(_) => None,
+            Self::Rows(values) => Some(values.len()),
+        }
+    }
+
+    fn write_to(&self, bytes: &mut Vec<u8>) {
+        match self {
+            Self::Same(value) => bytes.extend(value.to_le_bytes()),
+            Self::Rows(values) => bytes.extend(values.iter().flat_map(|value| value.to_le_bytes())),
+        }
+    }
+}
+
+/// The columns that are given for a model.
+struct Given {
+    /// Estimate, standard uncertainty and degrees of freedom of each variable; `None` of one that is as
+    /// the model has it.
+    variables: Vec<Option<[Known; 3]>>,
+    conditions: Vec<Option<Known>>,
+}
+
+impl Given {
+    fn of(task: &Task, columns: &Bound<'_, PyDict>) -> PyResult<Self> {
+        let mut given: HashMap<String, [Known; 3]> = HashMap::new();
+        for (name, value) in columns {
+            let [x, u, dof]: [Bound<'_, PyAny>; 3] = value.extract()?;
+            given.insert(name.extract()?, [Known::of(&x)?, Known::of(&u)?, Known::of(&dof)?]);
+        }
+        let variables = task.variables.iter().map(|variable| given.remove(&variable.name));
+        let variables = variables.collect();
+        let conditions = task.model.conditions.iter();
+        let conditions =
+            conditions.map(|of| given.remove(&of.name).map(|[value, ..]| value)).collect();
+        match given.keys().next() {
+            Some(name) => {
+                let reason = format!("the model has no input or condition `{name}`");
+                Err(argument(columns.py(), reason))
+            }
+            None => Ok(Self { variables, conditions }),
+        }
+    }
+
+    /// The number of rows.
+    fn rows(&self) -> usize {
+        let variables = self.variables.iter().flatten().flatten();
+        let given = variables.chain(self.conditions.iter().flatten());
+        given.filter_map(Known::rows).max().unwrap_or(1)
+    }
+}
+
+/// What is known of a variable in a row: a normal distribution, or a t for few degrees of freedom; a
+/// constant where its uncertainty is 0.
+fn distribution([x, u, dof]: &[Known; 3], row: usize) -> Result<Arc<Distribution>, String> {
+    let [x, u, dof] = [x, u, dof].map(|known| known.at(row));
+    let made = match u {
+        0.0 => Constant::new(x).map(Distribution::from),
+        _ => Normal::with_dof(x, u, dof).map(Distribution::from),
+    };
+    made.map(Arc::new).map_err(|invalid| format!("in row {row} (from 0) the {invalid}"))
+}
+
+fn first_row<'t>(py: Python<'_>, task: &'t Task) -> PyResult<&'t Row> {
+    task.rows.first().ok_or_else(|| argument(py, "the model has no row of conditions"))
+}
+
+/// The model in the rows of columns, as [`budgets`] takes them: a sweep of rows that each know something
+/// else of the inputs.
+#[pyfunction]
+pub(crate) fn in_rows(
+    py: Python<'_>,
+    model: &Bound<'_, Model>,
+    columns: &Bound<'_, PyDict>,
+) -> PyResult<Model> {
+    let file = &model.get().file;
+    let mut task = file.task.clone();
+    let given = Given::of(&task, columns)?;
+    let first = first_row(py, &task)?;
+    let of_row = |variable: usize, known: &[Known; 3], row| {
+        let name = &task.variables[variable].name;
+        distribution(known, row).map_err(|reason| argument(py, format!("`{name}`: {reason}")))
+    };
+    // what is the same in all rows is kept once; of others nothing
+    let mut shared = Vec::with_capacity(task.variables.len());
+    for (variable, (own, known)) in first.distributions.iter().zip(&given.variables).enumerate() {
+        shared.push(match known {
+            None => Some(Arc::clone(own)),
+            Some(known) if known.iter().all(|known| known.rows().is_none()) => {
+                Some(of_row(variable, known, 0)?)
+            }
+            Some(_) => None,
+        });
+    }
+    let mut rows = Vec::with_capacity(given.rows());
+    for row in 0..given.rows() {
+        let conditions = given.conditions.iter().zip(&first.conditions);
+        let conditions =
+            conditions.map(|(known, own)| known.as_ref().map_or(*own, |known| known.at(row)));
+        let mut distributions = Vec::with_capacity(shared.len());
+        for (variable, (shared, known)) in shared.iter().zip(&given.variables).enumerate() {
+            match (shared, known) {
+                (None, Some(known)) => distributions.push(of_row(variable, known, row)?),
+                (shared, _) => distributions.extend(shared.clone()),
+            }
+        }
+        rows.push(Row { conditions: conditions.collect(), distributions: distributions.into() });
+    }
+    task.rows = rows;
+    task.swept = true;
+    // parts of a run of other columns are parts of another run
+    let mut content = Vec::new();
+    let variables = given.variables.iter().flatten().flatten();
+    variables
+        .chain(given.conditions.iter().flatten())
+        .for_each(|known| known.write_to(&mut content));
+    let mut files = file.files.clone();
+    files.push(("columns".to_owned(), bytes::sha256(&content).into_bytes()));
+    Ok(model.get().with_file(ModelFile {
+        task,
+        warnings: file.warnings.clone(),
+        source: Arc::clone(&file.source),
+        files,
+        output_places: file.output_places.clone(),
+        evidence: Vec::new(),
+        readings: file.readings.clone(),
+    }))
 }
 
 /// Budgets of every output: for each a dictionary of columns. `columns` has for each variable or
@@ -51,30 +189,19 @@ pub(crate) fn budgets<'py>(
 ) -> PyResult<Bound<'py, PyList>> {
     let file = Arc::clone(&model.get().file);
     let task = &file.task;
-    let mut given: HashMap<String, [Known; 3]> = HashMap::new();
-    for (name, value) in columns {
-        let name: String = name.extract()?;
-        let [x, u, dof]: [Bound<'_, PyAny>; 3] = value.extract()?;
-        given.insert(name, [Known::of(&x)?, Known::of(&u)?, Known::of(&dof)?]);
-    }
-    let row = task.rows.first();
-    let row = row.ok_or_else(|| argument(py, "the model has no row of conditions"))?;
-    let variables = task.variables.iter().map(|variable| &variable.name);
-    let mut known = Vec::with_capacity(task.variables.len());
-    for (name, distribution) in variables.zip(row.distributions.iter()) {
-        known.push(given.remove(name).unwrap_or_else(|| {
-            [distribution.mean(), distribution.standard_uncertainty(), distribution.dof()]
-                .map(Known::Same)
-        }));
-    }
-    let mut conditions = Vec::new();
-    for (condition, &value) in task.model.conditions.iter().zip(&row.conditions) {
-        let own = given.remove(&condition.name).map(|[value, ..]| value);
-        conditions.push(own.unwrap_or(Known::Same(value)));
-    }
-    if let Some(name) = given.keys().next() {
-        return Err(argument(py, format!("the model has no input or condition `{name}`")));
-    }
+    let given = Given::of(task, columns)?;
+    let row = first_row(py, task)?;
+    let variables = given.variables.into_iter().zip(row.distributions.iter());
+    let known: Vec<[Known; 3]> = variables
+        .map(|(given, own)| {
+            given.unwrap_or_else(|| {
+                [own.mean(), own.standard_uncertainty(), own.dof()].map(Known::Same)
+            })
+        })
+        .collect();
+    let conditions = given.conditions.into_iter().zip(&row.conditions);
+    let conditions: Vec<Known> =
+        conditions.map(|(given, own)| given.unwrap_or(Known::Same(*own))).collect();
     let own = task.settings.coverage;
     check_one(py, coverage.is_some(), k.is_some())?;
     let factor = k.as_ref().map(factor).transpose()?;

@@ -5,6 +5,8 @@ use std::path::{Path, PathBuf};
 use std::sync::atomic::AtomicBool;
 
 use gumption::command::{Exit, Failure, GivenFile};
+use gumption::unit::Unit;
+use numpy::{PyArray1, PyReadonlyArray1};
 use pyo3::prelude::*;
 use pyo3::types::PyBytes;
 
@@ -87,7 +89,7 @@ pub(crate) fn carried_models(
 /// a Celsius temperature the number of degrees Celsius): `value * factor + offset`.
 #[pyfunction]
 pub(crate) fn unit_scale(py: Python<'_>, unit: &str) -> PyResult<(f64, f64)> {
-    let parsed = gumption::unit::Unit::parse(unit);
+    let parsed = Unit::parse(unit);
     let parsed = parsed.map_err(|error| argument(py, format!("the unit `{unit}`: {error}")))?;
     Ok((parsed.factor(), parsed.offset()))
 }
@@ -97,7 +99,7 @@ pub(crate) fn unit_scale(py: Python<'_>, unit: &str) -> PyResult<(f64, f64)> {
 /// an angle, as of `deg` and `deg/s`.
 #[pyfunction]
 pub(crate) fn unit_within(py: Python<'_>, unit: &str) -> PyResult<(String, bool, bool)> {
-    let parsed = gumption::unit::Unit::parse(unit);
+    let parsed = Unit::parse(unit);
     let parsed = parsed.map_err(|error| argument(py, format!("the unit `{unit}`: {error}")))?;
     let dimension = parsed.dimension();
     let within = match parsed.zero() {
@@ -138,8 +140,35 @@ pub(crate) fn unit_of_differences(py: Python<'_>, unit: &str) -> PyResult<String
 /// Whether values in one unit can be converted to another.
 #[pyfunction]
 pub(crate) fn units_fit(first: &str, second: &str) -> bool {
-    let parse = |text| gumption::unit::Unit::parse(text).ok();
+    let parse = |text| Unit::parse(text).ok();
     parse(first).zip(parse(second)).is_some_and(|(first, second)| first.is_compatible(&second))
+}
+
+/// Values in one unit, converted to another with the zeros of their scales; or differences, which have no
+/// zero.
+#[pyfunction]
+pub(crate) fn convert<'py>(
+    py: Python<'py>,
+    values: PyReadonlyArray1<'py, f64>,
+    unit: &str,
+    wanted: &str,
+    are_differences: bool,
+) -> PyResult<Bound<'py, PyArray1<f64>>> {
+    let parse = |text: &str| {
+        let parsed = Unit::parse(text);
+        parsed.map_err(|error| argument(py, format!("the unit `{text}`: {error}")))
+    };
+    let (from, to) = (parse(unit)?, parse(wanted)?);
+    let values = values.as_array();
+    let values = values.iter();
+    let converted: Result<Vec<f64>, _> = if are_differences {
+        let factor = Unit::conversion_factor(&from.of_differences(), &to.of_differences());
+        factor.map(|factor| values.map(|value| value * factor).collect())
+    } else {
+        values.map(|value| Unit::convert(*value, &from, &to)).collect()
+    };
+    let converted = converted.map_err(|error| argument(py, error.to_string()))?;
+    Ok(PyArray1::from_vec(py, converted))
 }
 
 /// The command line; the first argument is the name of the program. It gives the exit code.

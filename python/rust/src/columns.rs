@@ -24,7 +24,7 @@ fn figure(name: &str) -> Option<Figure> {
         Some(Box::new(move |output| output.gum.as_ref().and_then(of)))
     };
     let trials = |of: fn(&MonteCarlo) -> Option<f64>| -> Option<Figure> {
-        Some(Box::new(move |output| output.monte_carlo.as_ref().and_then(of)))
+        Some(Box::new(move |output| output.monte_carlo.as_deref().and_then(of)))
     };
     match name {
         "gum.estimate" => gum(|g| Some(g.estimate)),

@@ -43,9 +43,11 @@ fn _gumption(module: &Bound<'_, PyModule>) -> PyResult<()> {
     module.add_function(wrap_pyfunction!(arrow::arrow_array, module)?)?;
     module.add_function(wrap_pyfunction!(arrow::arrow_stream, module)?)?;
     module.add_function(wrap_pyfunction!(budgets::budgets, module)?)?;
+    module.add_function(wrap_pyfunction!(budgets::in_rows, module)?)?;
     module.add_function(wrap_pyfunction!(call::call, module)?)?;
     module.add_function(wrap_pyfunction!(call::carried_models, module)?)?;
     module.add_function(wrap_pyfunction!(call::case_source, module)?)?;
+    module.add_function(wrap_pyfunction!(call::convert, module)?)?;
     module.add_function(wrap_pyfunction!(call::main, module)?)?;
     module.add_function(wrap_pyfunction!(call::unit_of_differences, module)?)?;
     module.add_function(wrap_pyfunction!(call::unit_product, module)?)?;

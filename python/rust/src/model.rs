@@ -22,7 +22,11 @@ use crate::errors::{argument, failed, failed_with};
 use crate::function::PythonFunction;
 use crate::parts::Parts;
 use crate::run::{Note, Ran, Run, notes};
-use crate::supervised::{Watch, supervised, supervised_within};
+use crate::supervised::{Watch, at_once, supervised, supervised_within};
+
+/// A text of at most so many bytes that names no files is read in less than a millisecond, and without
+/// calibration functions nothing in it is large enough for several threads.
+const SHORT: usize = 16 << 10;
 
 /// What a model is read from.
 #[derive(Debug)]
@@ -198,8 +202,14 @@ impl Model {
             let files = files.holding(&source.held).with_readings(readings.as_ref());
             files.model_text(&source.name, &source.text, &source.folder, &overrides)
         };
-        // on threads of this process: a forked child has none of its parent's
-        let read = supervised_within(py, &AtomicBool::new(false), read)?;
+        let has_none = |key| !source.text.contains(key);
+        let is_short = source.text.len() <= SHORT && ["\"file\"", "\"fits\""].iter().all(has_none);
+        let read = if is_short {
+            at_once(py, read)?
+        } else {
+            // on threads of this process: a forked child has none of its parent's
+            supervised_within(py, &AtomicBool::new(false), read)?
+        };
         let given = source.held.iter().chain(&source.readings).map(|(name, _)| name.as_str());
         let given: Vec<&str> = given.collect();
         let file = read.map_err(|found| failed_with(py, &Failure::Diagnostics(found), &given))?;
@@ -374,6 +384,12 @@ impl Model {
 }
 
 impl Model {
+    /// The same of another file.
+    pub(crate) fn with_file(&self, file: ModelFile) -> Self {
+        let (source, provenance) = (Arc::clone(&self.source), Arc::clone(&self.provenance));
+        Self { source, file: Arc::new(file), provenance }
+    }
+
     /// The task with what is asked for.
     fn asked_task(&self, py: Python<'_>, asked: &RunRequest) -> PyResult<Task> {
         let mut task = self.file.task.clone();

@@ -141,7 +141,7 @@ impl Ran {
         control: &Control<'_>,
     ) -> Result<Vec<Vec<f64>>, EvaluationError> {
         let figures = self.evaluation.rows.get(row).map_or(&[][..], |row| &row.outputs);
-        let trials = figures.iter().find_map(|output| output.monte_carlo.as_ref());
+        let trials = figures.iter().find_map(|output| output.monte_carlo.as_deref());
         let count = trials.map_or(0, |figures| figures.trials) as usize;
         let mut samples: Vec<Vec<f64>> =
             outputs.iter().map(|_| Vec::with_capacity(count)).collect();

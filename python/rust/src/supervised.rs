@@ -59,6 +59,16 @@ pub(crate) fn supervised<T: Send + 'static>(
     waited(py, progress, &watch, take, &mut |never| match never {})
 }
 
+/// Does work of less than a few milliseconds that starts no threads in the calling thread: waking another
+/// one takes as long as the work.
+///
+/// # Errors
+/// A panic of the work.
+pub(crate) fn at_once<T: Send>(py: Python<'_>, work: impl FnOnce() -> T + Send) -> PyResult<T> {
+    let done = py.detach(|| catch_unwind(AssertUnwindSafe(work)));
+    done.map_err(|_| PyRuntimeError::new_err("an internal error of gumption"))
+}
+
 /// The same for work that borrows: it is waited for also where an exception is raised, which the flag
 /// makes short.
 ///

@@ -33,6 +33,7 @@ _HOME = {
     "_quantity": ["Comparison", "ComplexUncertainty", "Expression", "Quantity", "model_of"],
     "_arrays": ["Quantities", "array", "complex_normal", "correlated"],
     "_budgets": ["OutputBudgets", "budgets"],
+    "_grouped_readings": ["GroupedReadings", "readings_by"],
 }  # fmt: skip
 
 _WHERE = {name: module for module, names in _HOME.items() for name in names}

@@ -27,6 +27,7 @@ from gumption._diagnose import (
     effect as effect,
     runs as runs,
 )
+from gumption._grouped_readings import GroupedReadings as GroupedReadings, readings_by as readings_by
 from gumption._gumption import ModelError as ModelError
 from gumption._measurement import (
     Measurement as Measurement,
@@ -88,6 +89,7 @@ __all__ = [
     "Diagnosis",
     "Effect",
     "Expression",
+    "GroupedReadings",
     "Gum",
     "Input",
     "Measurement",
@@ -137,6 +139,7 @@ __all__ = [
     "poisson_count",
     "quantity",
     "readings",
+    "readings_by",
     "rectangular",
     "result",
     "runs",

@@ -25,7 +25,7 @@ MOVED, ALLOWED = 8 * EPS, 8
 
 
 def apart(
-    values: Column, truth: Column, scatter: float, moved: Callable[[Callable[[int], float]], Column]
+    values: Column, truth: Column, draws: Column, moved: Callable[[Callable[[int], float]], Column]
 ) -> Marks:
     """The indices at which values differ from the true ones by more than rounding.
 
@@ -33,13 +33,17 @@ def apart(
     ----------
     values, truth : ndarray
         The values to compare.
-    scatter : float
-        The standard deviation of the values among the draws.
+    draws : ndarray
+        The values of all draws, whose standard deviation says what is in no digit that anybody states.
     moved : callable
         The true values if argument i is multiplied by a factor; called only to distinguish rounding
         from a difference.
     """
-    allowed = ROUNDING * np.maximum(abs(values), abs(truth)) + OF_SCATTER * scatter
+    allowed = ROUNDING * np.maximum(abs(values), abs(truth))
+    wrong = differ(values, truth, allowed)
+    if not wrong.any():
+        return wrong
+    allowed = allowed + OF_SCATTER * scatter_of(draws)
     wrong = differ(values, truth, allowed)
     if not wrong.any():
         return wrong

@@ -54,5 +54,7 @@ class Arguments:
 
     def call(self, function: Callable[..., Any], values: Mapping[str, Any]) -> Any:
         """Calls the function with a value for each argument."""
+        if not self._first:
+            return function(**values)
         first = [values[name] for name in self._first]
         return function(*first, **{n: v for n, v in values.items() if n not in self._first})

@@ -9,10 +9,21 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from gumption import _gumption
-from gumption._agreement import Column, apart, scatter_of
+from gumption._agreement import Column, apart
 
 if TYPE_CHECKING:
     from gumption._measurement import Measurement
+
+
+#: Units that were parsed before.
+_SCALES: dict[str, tuple[float, float]] = {}
+
+
+def scale_of(unit: str) -> tuple[float, float]:
+    """`_gumption.unit_scale`, which parses the unit, kept."""
+    if unit not in _SCALES:
+        _SCALES[unit] = _gumption.unit_scale(unit)
+    return _SCALES[unit]
 
 
 class NotTheSame(_gumption.ModelError):
@@ -65,10 +76,10 @@ class BlockFunction:
     def of(self, model: _gumption.Model) -> Callable[[list[Column]], list[Column]]:
         """The function over the columns of the variables of a model."""
         variables, units = model.variables, dict([*model.inputs, *model.conditions])
-        scales = {name: _gumption.unit_scale(unit) for name, unit in units.items()}
+        scales = {name: scale_of(unit) for name, unit in units.items()}
         # components of an input are summed
         owner = [name.partition("/")[0] for name in variables] + [n for n, _ in model.conditions]
-        outputs = [(name, _gumption.unit_scale(unit)) for name, unit in model.outputs]
+        outputs = [(name, scale_of(unit)) for name, unit in model.outputs]
         check = self.measurement.check_units
 
         def called(columns: list[Column]) -> list[Column]:
@@ -117,7 +128,7 @@ class BlockFunction:
                 changed = {own: c * by(i) for i, (own, c) in enumerate(first.items())}
                 return self._of_draws(changed, alone)[name]
 
-            if apart(values[:1], truth[name], scatter_of(values), moved).any():
+            if apart(values[:1], truth[name], values, moved).any():
                 at = ", ".join(f"{own} = {column[0]:.10g}" for own, column in first.items())
                 raise NotTheSame(
                     f"called with columns of draws `{self.measurement.title}` gives {values[0]:.10g} for "
@@ -151,10 +162,15 @@ class BlockFunction:
             except ArithmeticError:
                 found = dict.fromkeys(made, np.nan)
             for name, column in made.items():
-                value = _numbers(found[name], name)
-                if value.size != 1:
-                    raise ValueError(f"the function gave {value.size} values for `{name}`, not one")
-                column.append(value.item())
+                value = found[name]
+                if not isinstance(value, float):
+                    values_found = _numbers(value, name)
+                    if values_found.size != 1:
+                        raise ValueError(
+                            f"the function gave {values_found.size} values for `{name}`, not one"
+                        )
+                    value = values_found.item()
+                column.append(value)
         return {name: np.array(column) for name, column in made.items()}
 
 

@@ -12,7 +12,7 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 import numpy as np
 
 from gumption import _gumption
-from gumption._agreement import EPS, Column, apart, differ, scatter_of
+from gumption._agreement import EPS, Column, apart, differ
 from gumption._block import BlockFunction, NotTheSame, Way
 
 if TYPE_CHECKING:
@@ -136,9 +136,10 @@ def check_rows(
 ) -> None:
     """Raises an error if formulas differ from their function, in some rows of budgets."""
     count = len(outputs[0])
-    rows = np.unique(np.linspace(0, count - 1, DRAWS).astype(int)) if count else np.empty(0, int)
-    if not rows.size:
+    if not count:
         return
+    # each place once: of more rows the step is above 1
+    rows = np.linspace(0, count - 1, DRAWS).astype(int) if count > DRAWS else np.arange(count)
     names = [*model.variables, *(name for name, _ in model.conditions)]
     variables = [np.broadcast_to(np.asarray(estimates[name]), count) for name in names]
     draws = _Draws(measurement, model, {}, variables, rows.tolist())
@@ -162,38 +163,40 @@ class _Draws:
         self.measurement, self.model, self.places = measurement, model, list(places)
         self.variables = variables = [column[self.places] for column in variables]
         self.one = BlockFunction(measurement, Way.NUMBERS, aliases)
+        self.evaluated = self.one.of(model)
         try:
-            self.truth = self.one.of(model)(variables)
+            self.truth = self.evaluated(variables)
         except (TypeError, ValueError, AttributeError, IndexError) as error:
             # it may take arrays and nothing else
             self.one = BlockFunction(measurement, Way.ENTRIES, aliases)
+            self.evaluated = self.one.of(model)
             try:
-                self.truth = self.one.of(model)(variables)
+                self.truth = self.evaluated(variables)
             except Exception:  # noqa: BLE001 - the first one is about what everybody expects
                 raise error from None
 
     def check_that_it_repeats(self) -> None:
         places = list(range(len(self.places) - 1, -1, -TWICE))
         at = ([column[places] for column in self.variables], [column[places] for column in self.truth])
-        _compare_twice(self.measurement, self.model, at, self.one.of(self.model)(at[0]))
+        _compare_twice(self.measurement, self.model, at, self.evaluated(at[0]))
 
     def difference(self, found: Sequence[Column], how: str) -> str | None:
         """A description of where outputs differ from the function."""
         for number, (name, unit) in enumerate(self.model.outputs):
             values, truth = np.asarray(found[number]), self.truth[number]
             values, moved = values[self.places], functools.partial(self._moved, number)
-            for shift in (0.0, *self._shifts(unit).values()):
-                wrong = apart(values - shift, truth, scatter_of(truth), moved)
-                if not wrong.any():
-                    break
-            if wrong.any():
-                place = int(np.argmax(wrong))
-                return (
-                    f"{how} `{name}` is {_with_unit(values[place], unit)}, and one draw at a time "
-                    f"{_with_unit(truth[place], unit)}, at {_at(self.model, self.variables, place)}"
-                )
+            wrong = apart(values, truth, truth, moved)
+            if not wrong.any():
+                continue
+            shifted = (apart(values - by, truth, truth, moved) for by in self._shifts(unit).values())
+            if any(not differs.any() for differs in shifted):
+                continue
+            place = int(np.argmax(wrong))
+            return (
+                f"{how} `{name}` is {_with_unit(values[place], unit)}, and one draw at a time "
+                f"{_with_unit(truth[place], unit)}, at {_at(self.model, self.variables, place)}"
+            )
         return None
-
 
     def _shifts(self, output: str) -> dict[str, float]:
         """The shifts of levels between the zeros of their units and the zero of an output's unit."""
@@ -223,7 +226,7 @@ class _Draws:
     def _moved(self, output: int, by: Callable[[int], float]) -> Column:
         """An output for arguments multiplied by a factor."""
         moved = [column * by(i) for i, column in enumerate(self.variables)]
-        return self.one.of(self.model)(moved)[output]
+        return self.evaluated(moved)[output]
 
 
 def _with_unit(value: float, unit: str, digits: int = 10) -> str:

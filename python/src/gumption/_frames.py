@@ -5,6 +5,7 @@ from __future__ import annotations
 import io
 import math
 import os
+import re
 from collections.abc import Mapping
 from csv import writer as csv_writer
 from itertools import zip_longest
@@ -16,15 +17,20 @@ import numpy as np
 from gumption import _gumption
 from gumption._quantities import astropy_unit, is_astropy, is_pint, pint_unit
 
-#: What the tables are called in messages and in the provenance.
-NAME = "conditions.csv"
+#: What the table is called in messages and in the provenance.
 READINGS = "readings.csv"
+
+#: Rows that are written at a time: the text of a million rows is not held twice.
+ROWS = 1 << 14
 
 
 def columns(table: Any) -> dict[str, Any]:
-    """The columns of a DataFrame (pandas, polars, pyarrow), a structured array or a mapping."""
+    """The columns of a DataFrame (pandas, polars, pyarrow), a Dataset of xarray, a structured array or a
+    mapping."""
+    if hasattr(table, "data_vars"):
+        return {str(name): table[name] for name in table.variables}
     if isinstance(table, Mapping):
-        return {str(name): np.atleast_1d(values) for name, values in table.items()}
+        return {str(name): v if hasattr(v, "__array__") else np.atleast_1d(v) for name, v in table.items()}
     if isinstance(table, np.ndarray) and table.dtype.names:
         return {name: table[name] for name in table.dtype.names}
     names = getattr(table, "column_names", None) or getattr(table, "columns", None)
@@ -35,53 +41,81 @@ def columns(table: Any) -> dict[str, Any]:
 
 
 def unit_of(column: Any) -> str | None:
-    """The unit stored with a column."""
+    """The unit stored with a column: of ``pint`` or ``astropy``, or ``attrs["units"]`` or ``attrs["unit"]``.
+
+    As ``pandas`` hands on the attributes of a table and not those of a column, they may also be a mapping
+    by column: ``frame.attrs["units"] = {"f": "Hz"}``.
+    """
     if is_pint(column):
         return pint_unit(column)
     if is_astropy(column):
         return astropy_unit(column)[1]
     own = getattr(column, "attrs", {})
-    unit = own.get("unit") if isinstance(own, Mapping) else None
-    return unit if isinstance(unit, str) else None
+    found = []
+    for key in ("units", "unit") if isinstance(own, Mapping) else ():
+        unit = own.get(key)
+        if isinstance(unit, Mapping):
+            unit = unit.get(column.name)
+        if isinstance(unit, str) and unit not in found:
+            found.append(unit)
+    if len(found) > 1:
+        raise _gumption.ModelError(
+            f"`{column.name}` has the units {found[0]} and {found[1]}, in attrs[\"units\"] and "
+            "attrs[\"unit\"]; take one of them out"
+        )
+    return udunits(found[0]) if found else None
 
 
-def numbers(column: Any) -> Any:
-    """The values of a column as doubles."""
+#: A unit of UDUNITS with its power, as in the conventions for files of climate and forecast: `m2`, `s-1`.
+_POWER = re.compile(r"([^\W\d]+|%|°)(?:\^|\*\*)?(-?\d+)?")
+
+#: Names of UDUNITS for units that have other names here.
+_NAMES = {
+    "degree": "deg", "degrees": "deg", "percent": "%", "degree_Celsius": "degC", "degrees_Celsius": "degC",
+    "degree_celsius": "degC", "degrees_celsius": "degC", "celsius": "degC", "Celsius": "degC",
+}  # fmt: skip
+
+
+def udunits(text: str) -> str:
+    """A unit of UDUNITS, such as ``kg m-3``, as it is written here; other texts as they are."""
+    parts = [_POWER.fullmatch(part) for part in re.split(r"[ .]+", text.strip())]
+    if not all(parts):
+        return text
+    names = [(_NAMES.get(part[1], part[1]), part[2]) for part in parts if part is not None]
+    return "*".join(name if power is None else f"{name}^{power}" for name, power in names)
+
+
+def numbers(column: Any, name: str = "a column") -> Any:
+    """The values of a column as doubles; missing ones are NaN."""
     if is_pint(column):
         column = column.magnitude
     elif is_astropy(column):
         column = column.value * astropy_unit(column)[0]
-    elif hasattr(column, "to_numpy"):
-        column = column.to_numpy()
-    return np.atleast_1d(np.asarray(column, dtype=np.float64))
+    elif isinstance(column, np.ma.MaskedArray):
+        column = np.ma.filled(column.astype(np.float64), np.nan)
+    elif getattr(getattr(column, "dtype", None), "na_value", None) is not None:
+        # of pandas, whose missing values are no numbers
+        column = column.to_numpy(na_value=np.nan)
+    values = np.asarray(column)
+    if values.dtype.kind in "biuf":
+        return np.atleast_1d(values.astype(np.float64, copy=False))
+    try:
+        if values.dtype.kind == "O":
+            return np.atleast_1d(values.astype(np.float64))
+    except (TypeError, ValueError):
+        pass
+    raise _gumption.ModelError(f"`{name}` has values of the type {values.dtype}, but numbers are needed")
 
 
 def csv(table: Mapping[str, Any]) -> bytes:
     """A table as CSV text; numbers have the shortest text that reads back as the same number."""
-    out = io.StringIO()
-    out.write(",".join(table) + "\n")
-    for row in zip(*(values.tolist() for values in table.values())):
-        out.write(",".join(map(repr, row)) + "\n")
-    return out.getvalue().encode()
-
-
-def condition_file(table: Any, units: Mapping[str, str]) -> tuple[dict[str, Any], dict[str, bytes]]:
-    """The conditions of a model file with the rows of a table, and the table as a file."""
-    found = columns(table)
-    missing = [name for name in units if name not in found]
-    if missing:
-        raise _gumption.ModelError(f"the table of conditions has no column {', '.join(missing)}")
-    own = {name: unit_of(found[name]) or unit for name, unit in units.items()}
-    for name, unit in units.items():
-        if not _gumption.units_fit(own[name], unit):
-            raise _gumption.ModelError(
-                f"the column `{name}` is in {own[name]}, but the model takes {unit}"
-            )
-    values = {name: numbers(found[name]) for name in units}
-    lengths = {len(column) for column in values.values()}
-    if len(lengths) > 1:
-        raise _gumption.ModelError("the columns of conditions have different lengths")
-    return {"file": NAME, "units": own}, {NAME: csv(values)}
+    text = bytearray((",".join(table) + "\n").encode())
+    count = max(map(len, table.values()), default=0)
+    for start in range(0, count, ROWS):
+        lists = [values[start : start + ROWS].tolist() for values in table.values()]
+        lines = map(repr, lists[0]) if len(lists) == 1 else (",".join(map(repr, row)) for row in zip(*lists))
+        text += ("\n".join(lines) + "\n").encode()
+    return bytes(text)
 
 
 def readings_file(readings: Any) -> tuple[str, bytes]:
@@ -115,15 +149,20 @@ def readings_file(readings: Any) -> tuple[str, bytes]:
     return READINGS, out.getvalue().encode()
 
 
-def frame_of(text: str) -> Any:
-    """A table of an answer as a ``pandas.DataFrame``: exact numbers, and missing values for empty cells."""
+def table_of(text: str) -> dict[str, Any]:
+    """A table of an answer as columns: exact numbers, and missing values for empty cells."""
     import csv as reader
-
-    import pandas
 
     lines = [line for line in text.splitlines() if not line.startswith("#")]
     header, *rows = reader.reader(lines)
-    return pandas.DataFrame({name: _cells([row[i] for row in rows]) for i, name in enumerate(header)})
+    return {name: _cells([row[i] for row in rows]) for i, name in enumerate(header)}
+
+
+def frame_of(text: str) -> Any:
+    """A table of an answer as a ``pandas.DataFrame``."""
+    import pandas
+
+    return pandas.DataFrame(table_of(text))
 
 
 def _cells(cells: list[str]) -> Any:

@@ -18,8 +18,9 @@ from gumption import _gumption, _notebook
 from gumption._arguments import Arguments
 from gumption._block import BlockFunction, Way
 from gumption._check import checked
-from gumption._frames import condition_file
+from gumption._conditions import condition_file
 from gumption._joint import identity_of
+from gumption._labels import Labels
 from gumption._model import Model, take_inputs, written
 from gumption._quantities import as_alone, as_known, unit_of
 from gumption._shapes import Input
@@ -154,6 +155,9 @@ class Measurement:
     def _named(self, found: Any) -> Mapping[str, Any]:
         """The results of the function by output."""
         names = list(self.outputs)
+        # what is mostly given is asked first: each draw of a check comes along here
+        if isinstance(found, float) and len(names) == 1:
+            return {names[0]: found}
         if isinstance(found, Mapping):
             missing = [name for name in names if name not in found]
             if missing:
@@ -290,13 +294,14 @@ class Measurement:
         if correlations:
             file["correlations"] = [list(link) for link in correlations]
         held: dict[str, bytes] = {}
+        labels: Labels | None = None
         if self.conditions:
             if conditions is None:
                 raise _gumption.ModelError(
                     f"the model has conditions ({', '.join(self.conditions)}); give their values with "
                     "`conditions=`"
                 )
-            file["conditions"], table = condition_file(conditions, self.conditions)
+            file["conditions"], table, labels = condition_file(conditions, self.conditions)
             held.update(table)
         elif conditions is not None:
             raise _gumption.ModelError(
@@ -317,7 +322,9 @@ class Measurement:
         if settings:
             file["monte_carlo"] = settings
         file["outputs"] = outputs
-        return self._model(file, known, held, aliases)
+        made = self._model(file, known, held, aliases)
+        made._labels = labels
+        return made
 
     def _model(
         self,

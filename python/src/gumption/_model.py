@@ -12,7 +12,8 @@ import numpy as np
 import numpy.typing as npt
 
 from gumption import _gumption, _notebook
-from gumption._frames import condition_file, readings_file
+from gumption._conditions import condition_file
+from gumption._frames import readings_file
 from gumption._joint import Joint, identity_of, listed
 from gumption._quantity import Expression, formulas
 from gumption._quantities import as_input, as_known, shared, unit_of
@@ -21,6 +22,7 @@ from gumption._result import Figure_co, Result
 if TYPE_CHECKING:
     from gumption._block import BlockFunction
     from gumption._check import Held
+    from gumption._labels import Labels
 
 
 class Model(Generic[Figure_co]):
@@ -38,6 +40,8 @@ class Model(Generic[Figure_co]):
     _known: Mapping[str, Any] | None
     #: The function that the formulas are of, as it was when the model was made.
     _held: Held | None
+    #: The labels of the rows of conditions, if their table had any.
+    _labels: Labels | None
 
     def __init__(self) -> None:
         raise TypeError("models are made by gumption.load, from_dict, from_json or model")
@@ -49,9 +53,11 @@ class Model(Generic[Figure_co]):
         function: BlockFunction | None = None,
         known: Mapping[str, Any] | None = None,
         held: Held | None = None,
+        labels: Labels | None = None,
     ) -> Model[Any]:
         made = object.__new__(cls)
         made._rust, made._function, made._known, made._held = rust, function, known, held
+        made._labels = labels
         return made
 
     @property
@@ -316,8 +322,9 @@ class Model(Generic[Figure_co]):
 
         Parameters
         ----------
-        table : DataFrame or mapping
-            A column for each condition of the model.
+        table : DataFrame, Dataset or mapping
+            A column for each condition of the model. Arrays of ``xarray`` are broadcast by their
+            dimensions.
         units : mapping of str to str, optional
             Units of the columns; by default those of the model's conditions, or those stored with
             the columns.
@@ -327,9 +334,11 @@ class Model(Generic[Figure_co]):
         if not own:
             raise _gumption.ModelError("the model has no conditions")
         file, held = self.to_dict(), dict(self._rust.source[3])
-        file["conditions"], tables = condition_file(table, own)
+        file["conditions"], tables, labels = condition_file(table, own)
         held.update(tables)
-        return self._with(file, held, self._known)
+        made = self._with(file, held, self._known)
+        made._labels = labels
+        return made
 
     def _with(
         self, file: Mapping[str, Any], held: Mapping[str, bytes], known: Mapping[str, Any] | None
@@ -343,7 +352,7 @@ class Model(Generic[Figure_co]):
     def _derived(self, rust: _gumption.Model, known: Mapping[str, Any] | None) -> Model[Any]:
         """A model with the same formulas, checked against their function."""
         held = self._held.of(rust) if self._held is not None else None
-        return Model._of(rust, known=known, held=held)
+        return Model._of(rust, known=known, held=held, labels=self._labels)
 
     def _refuse_function(self, what: str) -> None:
         if self._function is not None:
@@ -394,7 +403,7 @@ class Model(Generic[Figure_co]):
     def __reduce__(self) -> Any:
         # formulas were held against their function when they were made, and need it no more
         held = self._held if self._function is not None else None
-        return _model_from, (self._rust.source, self._function, self._known, held)
+        return _model_from, (self._rust.source, self._function, self._known, held, self._labels)
 
     def __eq__(self, other: object) -> bool:
         if not isinstance(other, Model):
@@ -410,8 +419,9 @@ def _model_from(
     function: BlockFunction | None,
     known: Mapping[str, Any] | None,
     held: Held | None,
+    labels: Labels | None,
 ) -> Model:
-    return Model._of(_gumption.Model(*source), function, known, held)
+    return Model._of(_gumption.Model(*source), function, known, held, labels)
 
 
 def take_inputs(
@@ -672,10 +682,11 @@ def from_dict(
         given = {key: as_known(v, key) for key, v in inputs.items() if key not in stated}
         made["inputs"] = {key: stated.get(key) for key in inputs}
         held, known = take_inputs(made, given, dict.fromkeys(inputs, "1"), own)
+    labels = None
     if conditions is not None:
         asked = made.get("conditions", {})
         units = {n: of if isinstance(of, str) else of.get("unit", "1") for n, of in asked.items()}
-        made["conditions"], tables = condition_file(conditions, units)
+        made["conditions"], tables, labels = condition_file(conditions, units)
         held.update(tables)
     rust = _gumption.Model(_made(name), written(made), os.fspath(folder), list(held.items()))
-    return Model._of(rust, known=known)
+    return Model._of(rust, known=known, labels=labels)

@@ -150,6 +150,8 @@ def as_input(value: Any, name: str = "the input") -> Input:
         inner = as_input(value.magnitude, name)
         return Input(inner.spec, pint_unit(value), inner.held)
     if is_astropy(value):
+        if not hasattr(value, "distribution"):
+            _refuse_columns(value.value, name)
         factor, unit = astropy_unit(value)
         distribution = getattr(value, "distribution", None)
         if distribution is not None:
@@ -170,11 +172,25 @@ def as_input(value: Any, name: str = "the input") -> Input:
     if isinstance(value, (int, float, np.integer, np.floating)):
         return Input({"distribution": "constant", "value": plain(value)})
     if isinstance(value, tuple) and len(value) in (2, 3):
+        for part in value:
+            _refuse_columns(part, name)
         return _normal(*value)
+    _refuse_columns(value, name)
     raise TypeError(
         f"{name}: {type(value).__name__} says nothing about a quantity; a number, a pair (estimate, "
         "standard uncertainty), gumption.normal(...), gumption.readings([...]) or the like is needed"
     )
+
+
+def _refuse_columns(value: Any, name: str) -> None:
+    """Raises an error for an array where one quantity is meant."""
+    value = _inner(value)
+    if (isinstance(value, list) or hasattr(value, "__array__")) and np.ndim(value):
+        raise TypeError(
+            f"{name}: a {type(value).__name__} of numbers is not one quantity: for a budget of each of them "
+            f"call gumption.budgets(model, {name}=...), and readings of one quantity are "
+            "gumption.readings(...)"
+        )
 
 
 def is_linked(value: Any) -> bool:

@@ -13,11 +13,13 @@ import numpy as np
 import numpy.typing as npt
 
 from gumption import _gumption, _notebook
-from gumption._frames import frame_of
+from gumption._frames import table_of
+from gumption._labels import Axes, Labels, is_count
 from gumption._notebook import Page
 from gumption._quantity import Quantity
 from gumption._samples import Samples, SampleTable
 from gumption._shapes import Input
+from gumption._tables import Table
 
 if TYPE_CHECKING:
     from typing_extensions import TypeVar as TypeVarWithDefault
@@ -29,6 +31,13 @@ if TYPE_CHECKING:
     Figure_co = TypeVarWithDefault("Figure_co", default=Any, covariant=True)
 else:
     Figure_co = TypeVar("Figure_co", covariant=True)
+
+#: The columns of a table that are in the unit of the output.
+QUANTITIES = [
+    "gum_estimate", "gum_standard_uncertainty", "expanded_uncertainty", "gum_low", "gum_high", "mc_estimate",
+    "mc_standard_uncertainty", "mc_median", "mc_symmetric_low", "mc_symmetric_high", "mc_shortest_low",
+    "mc_shortest_high",
+]  # fmt: skip
 
 #: Formats of pages and answers, by the extensions of files.
 FORMATS = {
@@ -361,7 +370,7 @@ class Output(Quantity, Generic[Figure_co]):
         return f"<gumption.Output {self.name} = {self}>"
 
 
-class Result(Mapping[str, Output[Figure_co]]):
+class Result(Table, Mapping[str, Output[Figure_co]]):
     """The result of a run: a mapping from the names of outputs to `Output` objects.
 
     A result is pickled as its model, seed and settings, and recomputed when it is needed, with the
@@ -468,11 +477,58 @@ class Result(Mapping[str, Output[Figure_co]]):
         assert self._answer is not None
         return self._answer
 
+    def _columns(self) -> dict[str, Any]:
+        return table_of(self.to("csv").decode())
+
+    def _labels(self) -> Labels | None:
+        labels = self.model._labels
+        if labels is None or is_count(labels.index()):
+            return None
+        return Labels(labels.index().repeat(len(self)))
+
+    def _units(self) -> dict[str, str]:
+        units = {unit for _, unit in self._run.outputs}
+        own = {name: units.copy().pop() for name in QUANTITIES if len(units) == 1}
+        return {**own, **dict(self._run.conditions)}
+
     def to_pandas(self) -> Any:
-        """A ``pandas.DataFrame`` of one line for each output and row, as ``--format csv`` has them."""
-        frame = frame_of(self.to("csv").decode())
-        index = [*(name for name, _ in self._run.conditions if self._run.swept), "output"]
-        return frame.set_index(index)
+        """A ``pandas.DataFrame`` of one line for each output and row, as ``--format csv`` has them.
+
+        Its index is that of the table of conditions, if this had one of its own or arrays of ``xarray``,
+        or else the conditions; and the outputs.
+        """
+        frame = super().to_pandas()
+        if self._labels() is not None:
+            return frame.set_index("output", append=True)
+        return frame.set_index([*(name for name, _ in self._run.conditions if self._run.swept), "output"])
+
+    def to_xarray(self) -> Any:
+        """An ``xarray.Dataset`` with the dimensions and coordinates of the conditions, and ``output``.
+
+        Units are in ``attrs["units"]`` of the conditions, and of the results if all outputs have one
+        unit; the coordinate ``unit`` has those of the outputs.
+        """
+        columns, outputs = self._columns(), list(self)
+        labels = self.model._labels if self._run.swept else None
+        axes = Axes(("row",), (self.rows,), {}) if self._run.swept else Axes((), (), {})
+        dimensions, shape, coordinates, attributes, kept = axes if labels is None else labels.axes()
+        units = self._units()
+        of_outputs = {name: columns.pop(name)[: len(outputs)] for name in ("unit", "equation")}
+        own = {"output": outputs, **{name: ("output", texts) for name, texts in of_outputs.items()}}
+        variables = {}
+        for name, column in columns.items():
+            values, about = np.asarray(column), dict(kept.get(name, {}))
+            if name in units and "units" not in about:
+                about["units"] = units[name]
+            if name in dict(self._run.conditions):
+                values, dims = values[:: len(outputs)].reshape(shape), dimensions
+            else:
+                values, dims = values.reshape(*shape, len(outputs)), (*dimensions, "output")
+            if name not in (*coordinates, *own):
+                variables[name] = (dims, values, about)
+        import xarray
+
+        return xarray.Dataset(variables, coordinates, attributes).assign_coords(own)
 
     def samples(self, name: str | None = None, row: int = 0) -> Any:
         """The trials, recomputed with the bits of the run.

@@ -121,7 +121,7 @@ def run(
         for name in outputs:
             if name not in given:
                 return f"the simulator gives no `{name}`"
-            column = numbers(given[name])
+            column = numbers(given[name], name)
             if column.shape != (count,):
                 return f"`{name}` has the shape {column.shape}, but the data have {count} rows"
             bad = np.flatnonzero(~np.isfinite(column))

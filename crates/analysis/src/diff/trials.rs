@@ -31,7 +31,7 @@ pub struct ByTrials {
 impl ByTrials {
     /// From an evaluation; `None` without trials.
     fn of(found: &OutputEvaluation) -> Option<Self> {
-        let figures = found.monte_carlo.as_ref()?;
+        let figures = found.monte_carlo.as_deref()?;
         let [low, high] = figures.symmetric_interval;
         let [low_error, high_error] = figures.errors.symmetric_interval;
         let error = 0.5 * elementary::hypot(low_error, high_error);

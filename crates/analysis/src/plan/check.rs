@@ -65,7 +65,7 @@ pub(super) fn of(
     (planned.rows, planned.fits) = (vec![row], Fits::default());
     let found = evaluate(&planned, control).map_err(NoPlan::Evaluation)?;
     let output = found.rows.first().and_then(|row| row.outputs.get(target.output));
-    let figures = output.and_then(|output| output.monte_carlo.as_ref());
+    let figures = output.and_then(|output| output.monte_carlo.as_deref());
     let figure = figures.and_then(|figures| {
         let [low, high] = figures.symmetric_interval;
         if target.expanded { Some(0.5 * high - 0.5 * low) } else { figures.standard_uncertainty }

@@ -44,7 +44,7 @@ pub struct CorrelationLine {
 impl Gum {
     /// The budget: one line for each variable that is shown, in order.
     pub fn budget(&self) -> impl Iterator<Item = BudgetLine> + '_ {
-        let lines = self.shown.iter().filter_map(|&variable| {
+        let lines = self.shown().iter().filter_map(|&variable| {
             let sensitivity = *self.sensitivities.get(variable)?;
             Some(BudgetLine::new(variable, self.inputs.get(variable)?, sensitivity))
         });
@@ -63,7 +63,7 @@ impl Gum {
                 BudgetLine::new(variable, distribution, sensitivity).relative(self.largest)
             })
         };
-        self.links.iter().map(move |c| CorrelationLine {
+        self.links().iter().map(move |c| CorrelationLine {
             variables: [c.first, c.second],
             coefficient: c.coefficient,
             share: self.share(2.0 * relative(c.first) * relative(c.second) * c.coefficient),
@@ -72,7 +72,7 @@ impl Gum {
 
     /// Whether there are lines of correlation coefficients.
     pub fn is_correlated(&self) -> bool {
-        !self.links.is_empty()
+        !self.links().is_empty()
     }
 
     /// A part of the variance in squares of the largest contribution, as a share.

@@ -160,7 +160,7 @@ impl Conformity {
         settings: &Settings,
     ) -> Option<Self> {
         let gum = figures.gum.as_ref();
-        let of_trials = figures.monte_carlo.as_ref().filter(|_| output.tolerance.is_some());
+        let of_trials = figures.monte_carlo.as_deref().filter(|_| output.tolerance.is_some());
         let of_trials = of_trials.and_then(|trials| {
             let stated = Stated::of(figures, settings);
             let guard_band = figures.guard_band_of_trials;

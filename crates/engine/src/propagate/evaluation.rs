@@ -186,7 +186,7 @@ fn guarded<'f>(
     output: &Output,
     found: &'f OutputEvaluation,
 ) -> Option<(f64, [f64; 2], &'f MonteCarlo)> {
-    let figures = found.monte_carlo.as_ref()?;
+    let figures = found.monte_carlo.as_deref()?;
     let (limits, risk) = (output.tolerance?.ends(), output.risk?);
     (output.prior.is_none() && found.trusted().is_none()).then_some((risk, limits, figures))
 }
@@ -241,7 +241,7 @@ fn evaluate_row(
                 let by_law = by_law(task, &linear.estimates, &gums);
                 return Err(explain(task, (number, row), undefined, by_law));
             }
-            result.undefined = Some(undefined);
+            result.undefined = Some(Box::new(undefined));
         }
         if finished.trials > 0 {
             figures = finished.outputs.into_iter().map(Some).collect();
@@ -280,11 +280,12 @@ fn evaluate_row(
     let again = OnceCell::new();
     for (number, (of_output, inherited)) in evaluated {
         let ((((gum, monte_carlo), drawn_dof), output), second_order) = of_output;
+        let monte_carlo = monte_carlo.map(Box::new);
         let problem = exact::Problem { task, row, joint: &joint, output: number, drawn_dof };
-        let nonlinear = gum.as_ref().zip(monte_carlo.as_ref()).map(|(gum, figures)| {
+        let nonlinear = gum.as_ref().zip(monte_carlo.as_deref()).map(|(gum, figures)| {
             nonlinearity::is_nonlinear(&problem, gum, figures, second_order.as_ref())
         });
-        let both = gum.as_ref().zip(monte_carlo.as_ref());
+        let both = gum.as_ref().zip(monte_carlo.as_deref());
         let jump = both.and_then(|(gum, figures)| {
             branch::jump(&task.model.program, number, output, gum, figures)
         });
@@ -298,11 +299,11 @@ fn evaluate_row(
         let validation = validations[number];
         // where the law of propagation holds beyond doubt, nobody states other figures
         let needed = !validation
-            .zip(monte_carlo.as_ref())
+            .zip(monte_carlo.as_deref())
             .is_some_and(|(validation, figures)| is_clearly_valid(&validation, figures));
         let noiseless = noiseless(&problem, needed);
         let is_open = validation.is_some_and(|validation| validation.gum_valid != Some(true));
-        let agreement = gum.as_ref().zip(monte_carlo.as_ref()).filter(|_| is_open).and_then(
+        let agreement = gum.as_ref().zip(monte_carlo.as_deref()).filter(|_| is_open).and_then(
             |(gum, figures)| match (gum.dof, &at_infinite_dof) {
                 (Dof::Infinite, _) | (_, None) => {
                     let noiseless = noiseless.as_ref().and_then(|found| found.as_deref().ok());
@@ -318,7 +319,7 @@ fn evaluate_row(
             noiseless,
             inherited: inherited.map(Box::new),
             nonlinear,
-            jump,
+            jump: jump.map(Box::new),
             validation,
             agreement,
             capability: None,

@@ -55,7 +55,7 @@ pub struct RowEvaluation {
     /// The coverage regions of several outputs together, as many as the task asks for.
     pub regions: Vec<RegionEvaluation>,
     /// Trials that were left out because an output was not finite.
-    pub undefined: Option<Undefined>,
+    pub undefined: Option<Box<Undefined>>,
     /// The variables that are outputs of saved results, drawn as they varied together there.
     pub jointly_drawn: Vec<JointlyDrawn>,
     /// Coefficients that the copula of the trials does not give as they are, and what it gives.
@@ -78,7 +78,7 @@ pub struct OutputEvaluation {
     /// By the law of propagation; `None` where a sensitivity coefficient is not finite.
     pub gum: Option<Gum>,
     /// By the Monte Carlo method; `None` without trials.
-    pub monte_carlo: Option<MonteCarlo>,
+    pub monte_carlo: Option<Box<MonteCarlo>>,
     /// The law of propagation with its terms of second order, where they tell why the two differ, or
     /// what the law leaves out.
     pub second_order: Option<Box<SecondOrder>>,
@@ -89,7 +89,7 @@ pub struct OutputEvaluation {
     /// without trials or without a law of propagation.
     pub(super) nonlinear: Option<bool>,
     /// How the trials lie on both sides of a cut, where they do.
-    pub(super) jump: Option<Jump>,
+    pub(super) jump: Option<Box<Jump>>,
     /// Figures without the noise of trials, or why there are none; `None` where none were asked for.
     pub noiseless: Option<Result<Box<Noiseless>, String>>,
     /// Their comparison.
@@ -180,8 +180,8 @@ impl CapabilityStatement {
 impl RowEvaluation {
     /// The trials that were made, those that were left out included; `None` without trials.
     pub(super) fn made(&self) -> Option<u64> {
-        let figures = self.outputs.iter().find_map(|output| output.monte_carlo.as_ref())?;
-        let undefined = self.undefined.as_ref().map_or(0, |undefined| undefined.count);
+        let figures = self.outputs.iter().find_map(|output| output.monte_carlo.as_deref())?;
+        let undefined = self.undefined.as_deref().map_or(0, |undefined| undefined.count);
         Some(figures.trials + undefined)
     }
 }

@@ -44,10 +44,8 @@ pub struct Gum {
     pub(super) sensitivities: Box<[f64]>,
     /// The variables' distributions.
     pub(super) inputs: Arc<[Arc<Distribution>]>,
-    /// The variables that have a line in the budget.
-    pub(super) shown: Arc<[usize]>,
-    /// The coefficients that have one.
-    pub(super) links: Arc<[Correlation]>,
+    /// Which variables and which coefficients have a line in the budget.
+    linked: Arc<Linked>,
     /// The largest contribution.
     pub(super) largest: f64,
     /// The combined variance in squares of that.
@@ -55,6 +53,16 @@ pub struct Gum {
 }
 
 impl Gum {
+    /// The variables that have a line in the budget.
+    pub(super) fn shown(&self) -> &[usize] {
+        &self.linked.shown
+    }
+
+    /// The coefficients that have one.
+    pub(super) fn links(&self) -> &[Correlation] {
+        &self.linked.correlations
+    }
+
     /// The largest contribution of an input.
     pub(super) fn largest_contribution(&self) -> f64 {
         self.largest
@@ -100,7 +108,7 @@ impl Gum {
         };
         let own: f64 = (0..self.inputs.len()).map(|v| signed(v).powi(2)).sum();
         let joint =
-            self.links.iter().map(|c| 2.0 * c.coefficient * signed(c.first) * signed(c.second));
+            self.links().iter().map(|c| 2.0 * c.coefficient * signed(c.first) * signed(c.second));
         (own + joint.sum::<f64>()).max(0.0).sqrt()
     }
 
@@ -203,7 +211,7 @@ impl<'a> GumRows<'a> {
         {
             return Arc::clone(linked);
         }
-        let mut linked = Arc::new(Linked::of(self.task, row));
+        let mut linked = Arc::new(Linked::of(self.task, row, &self.shown));
         // equal ones are kept once
         if let Some((_, known)) = before.filter(|(_, known)| *known == linked) {
             linked = Arc::clone(known);
@@ -308,7 +316,9 @@ pub(super) fn effective(
 #[derive(Debug, PartialEq)]
 struct Linked {
     /// The declared coefficients, then those of paired readings.
-    correlations: Arc<[Correlation]>,
+    correlations: Vec<Correlation>,
+    /// The variables that have a line in the budget.
+    shown: Arc<[usize]>,
     /// The sets of paired readings.
     ensembles: Vec<Vec<usize>>,
     /// For each variable with paired readings the number of its set.
@@ -316,7 +326,7 @@ struct Linked {
 }
 
 impl Linked {
-    fn of(task: &Task, row: &Row) -> Self {
+    fn of(task: &Task, row: &Row, shown: &Arc<[usize]>) -> Self {
         let ensembles = paired::ensembles(&row.distributions);
         let mut correlations = effective(&task.correlations, &row.distributions);
         correlations.extend(ensembles.iter().flat_map(paired::Ensemble::correlations));
@@ -326,7 +336,7 @@ impl Linked {
         let ensemble_of =
             numbered.flat_map(|(set, members)| members.iter().map(move |&m| (m, set)));
         let ensemble_of = ensemble_of.collect();
-        Self { correlations: correlations.into(), ensembles, ensemble_of }
+        Self { correlations, shown: Arc::clone(shown), ensembles, ensemble_of }
     }
 
     /// Whether the two variables have paired readings of the same ensemble.
@@ -339,7 +349,7 @@ impl Linked {
 impl GumRows<'_> {
     /// The evaluation of one output from its estimate and its sensitivity coefficients; `None` where
     /// the standard uncertainty is not finite.
-    fn output(&self, row: &Row, estimate: f64, slopes: &[f64], linked: &Linked) -> Option<Gum> {
+    fn output(&self, row: &Row, estimate: f64, slopes: &[f64], linked: &Arc<Linked>) -> Option<Gum> {
         let settings = &self.task.settings;
         let lines: Vec<BudgetLine> = row
             .distributions
@@ -376,8 +386,7 @@ impl GumRows<'_> {
             coverage_factor: self.factors.factor(settings.coverage, dof, settings.real_dof),
             sensitivities: slopes.into(),
             inputs: Arc::clone(&row.distributions),
-            shown: Arc::clone(&self.shown),
-            links: Arc::clone(&linked.correlations),
+            linked: Arc::clone(linked),
             largest,
             variance,
         };

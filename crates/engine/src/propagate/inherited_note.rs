@@ -26,7 +26,7 @@ pub(super) fn note(
 ) -> Option<Warning> {
     let inherited = found.inherited.as_deref()?;
     let Variances { estimate, standard_uncertainty, end, .. } = inherited.variances;
-    let figures = found.monte_carlo.as_ref();
+    let figures = found.monte_carlo.as_deref();
     let spread = figures.and_then(|figures| figures.standard_uncertainty);
     let u = spread.or_else(|| Some(found.gum.as_ref()?.standard_uncertainty))?;
     let errors: Vec<(Fact, f64)> = match figures {

@@ -34,7 +34,7 @@ impl InputFigures {
 
     /// Those of the inputs of an evaluated row.
     pub fn of_gum(task: &Task, gum: &Gum) -> Vec<Self> {
-        all(task, &gum.inputs, &gum.links)
+        all(task, &gum.inputs, gum.links())
     }
 }
 

@@ -28,7 +28,7 @@ pub struct Origins {
 /// The GUM evaluation of an output whose sensitivity coefficients say how it varies: finite, and not
 /// all zero where the trials scatter.
 pub fn linear(output: &OutputEvaluation) -> Option<&Gum> {
-    let spread = output.monte_carlo.as_ref().and_then(|figures| figures.standard_uncertainty);
+    let spread = output.monte_carlo.as_deref().and_then(|figures| figures.standard_uncertainty);
     output.gum.as_ref().filter(|gum| gum.standard_uncertainty > 0.0 || spread == Some(0.0))
 }
 

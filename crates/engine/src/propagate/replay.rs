@@ -109,7 +109,7 @@ pub fn histograms(
         .iter()
         .map(|output| {
             let gum = output.gum.as_ref().and_then(Gum::interval);
-            let own = output.monte_carlo.as_ref();
+            let own = output.monte_carlo.as_deref();
             let own = own.into_iter().flat_map(|m| [m.symmetric_interval, m.shortest_interval]);
             gum.into_iter().chain(own).reduce(|[a, b], [c, d]| [a.min(c), b.max(d)])
         })
@@ -147,7 +147,7 @@ pub fn convergence(
             trials.and_then(|mut trials| monte_carlo::settling(&mut trials, request, control));
         Ok(found.map(|mut outputs| {
             for (stages, output) in outputs.iter_mut().zip(&whole.outputs) {
-                stages.extend(output.monte_carlo.clone());
+                stages.extend(output.monte_carlo.as_deref().cloned());
             }
             outputs
         }))
@@ -234,7 +234,7 @@ mod tests {
         assert_eq!(counts, [1000, 2000, 5000, 10_000, 20_000, 30_000]);
         for (place, count) in counts.into_iter().enumerate() {
             let (_, alone) = of(count);
-            let alone = alone.rows[0].outputs[0].monte_carlo.as_ref();
+            let alone = alone.rows[0].outputs[0].monte_carlo.as_deref();
             assert_eq!(printed(&Some(&stages[0][place])), printed(&alone));
         }
         let stages = printed(&stages);

@@ -71,7 +71,7 @@ impl Stated {
             let gum = output.gum.as_ref();
             let noiseless = output.noiseless.as_ref().and_then(|figures| figures.as_deref().ok());
             let noiseless = noiseless.and_then(|noiseless| without_noise(noiseless, gum));
-            noiseless.or_else(|| by_trials(output.monte_carlo.as_ref()?, gum))
+            noiseless.or_else(|| by_trials(output.monte_carlo.as_deref()?, gum))
         };
         let agreed = |stated: Self| match settings.coverage {
             Coverage::Factor { factor, fixed: true } => stated.with_factor(factor),
@@ -184,7 +184,7 @@ impl OutputEvaluation {
     /// have a variance and it is told from the estimate by the law of propagation, and otherwise that
     /// estimate, or without it the median.
     pub fn located(&self) -> Option<(f64, f64)> {
-        self.monte_carlo.as_ref().map(|figures| located(figures, self.gum.as_ref()))
+        self.monte_carlo.as_deref().map(|figures| located(figures, self.gum.as_ref()))
     }
 }
 

@@ -214,7 +214,7 @@ fn push(found: &mut Vec<Warning>, warning: Warning) {
 /// A variance that declared coefficients leave nothing of, where they are possible only within their
 /// rounding.
 fn of_rounded_correlations(name: &str, output: &OutputEvaluation) -> Option<Warning> {
-    let drawn = output.monte_carlo.as_ref()?.standard_uncertainty?;
+    let drawn = output.monte_carlo.as_deref()?.standard_uncertainty?;
     let gum = output.gum.as_ref()?;
     let rounding = ROUNDING * gum.largest_contribution();
     let is_lost = gum.standard_uncertainty == 0.0 && drawn > rounding;

@@ -139,7 +139,7 @@ fn a_measurement_is_the_same_by_both_ways() {
     let short = evaluated(&Task::of(projection(), settings).unwrap());
     let long = evaluated(&Task::measurement(projection()).trials(2000).build().unwrap());
     for (a, b) in short.rows[0].outputs.iter().zip(&long.rows[0].outputs) {
-        let [a, b] = [a, b].map(|output| output.monte_carlo.as_ref().unwrap().symmetric_interval);
+        let [a, b] = [a, b].map(|output| output.monte_carlo.as_deref().unwrap().symmetric_interval);
         assert_eq!(a, b);
     }
 }

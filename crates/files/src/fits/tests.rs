@@ -54,12 +54,12 @@ fn a_line_without_stated_uncertainties_is_that_of_gtc() {
         assert!(matches!(gum.dof, Dof::Finite(dof) if (dof - 13.0).abs() < 1e-9), "{:?}", gum.dof);
         // a multivariate t with 13 degrees of freedom: u is larger by sqrt(13/11), in 100,000 trials
         // to 0.3 %; five standard errors
-        let trials = evaluation.rows[0].outputs[output].monte_carlo.as_ref().unwrap();
+        let trials = evaluation.rows[0].outputs[output].monte_carlo.as_deref().unwrap();
         let ratio = trials.standard_uncertainty.unwrap() / uncertainty;
         assert!((ratio / (13.0_f64 / 11.0).sqrt() - 1.0).abs() < 0.015, "{output} {ratio}");
     }
     // the curve at its inverse is the value again, in every trial
-    let back = evaluation.rows[0].outputs[3].monte_carlo.as_ref().unwrap();
+    let back = evaluation.rows[0].outputs[3].monte_carlo.as_deref().unwrap();
     assert!((back.estimate.unwrap() - 0.0714).abs() < 1e-12);
     assert!(back.standard_uncertainty.unwrap() < 1e-12);
 }
@@ -88,9 +88,9 @@ fn inverses_of_curves() {
         assert!(back.estimate.abs() < 1e-9, "{form} {}", back.estimate);
         assert!(back.standard_uncertainty < 1e-8, "{form} {}", back.standard_uncertainty);
         // a linear model here: u of the trials is that of the law, to 0.5 % in 20,000 trials
-        let trials = evaluation.rows[0].outputs[0].monte_carlo.as_ref().unwrap();
+        let trials = evaluation.rows[0].outputs[0].monte_carlo.as_deref().unwrap();
         near(trials.standard_uncertainty.unwrap(), t.standard_uncertainty, 0.025);
-        let back = evaluation.rows[0].outputs[1].monte_carlo.as_ref().unwrap();
+        let back = evaluation.rows[0].outputs[1].monte_carlo.as_deref().unwrap();
         assert!(back.standard_uncertainty.unwrap() < 1e-8, "{form}");
     }
 }
@@ -163,7 +163,7 @@ fn a_region_of_two_outputs() {
     }
     near(gum.ellipsoid_k.unwrap(), 2.447_746_830_680_816, 1e-12);
     near(gum.box_k.unwrap(), 2.241_402_727_604_945, 1e-12);
-    let found = region.monte_carlo.as_ref().unwrap();
+    let found = region.monte_carlo.as_deref().unwrap();
     let error = found.ellipsoid_error.unwrap();
     assert!(error < 0.02 && found.box_error < 0.02, "{error} {}", found.box_error);
     assert!((found.region.ellipsoid_k.unwrap() - 2.447_746_8).abs() < 5.0 * error);
@@ -193,7 +193,7 @@ fn readings_with_the_scatter_of_a_line() {
     assert!(matches!(c.dof, Dof::Finite(dof) if (dof - 13.0).abs() < 1e-9), "{:?}", c.dof);
     // one t with 13 degrees of freedom, but for the little bending of 1/b: five standard errors of
     // 0.3 % and 0.5 % for the bending
-    let trials = evaluation.rows[0].outputs[0].monte_carlo.as_ref().unwrap();
+    let trials = evaluation.rows[0].outputs[0].monte_carlo.as_deref().unwrap();
     let ratio = trials.standard_uncertainty.unwrap() / c.standard_uncertainty;
     assert!((ratio / (13.0_f64 / 11.0).sqrt() - 1.0).abs() < 0.02, "{ratio}");
     for (pooled, more, said) in [
@@ -266,7 +266,7 @@ fn polar_coordinates_of_the_supplement() {
         "monte_carlo": {"trials": 100000}}"#);
     near(gum(&evaluation, 0).standard_uncertainty, 0.010, 1e-12);
     near(gum(&evaluation, 1).standard_uncertainty, 1.0, 1e-12);
-    let trials = evaluation.rows[0].outputs[0].monte_carlo.as_ref().unwrap();
+    let trials = evaluation.rows[0].outputs[0].monte_carlo.as_deref().unwrap();
     let mean = trials.estimate.unwrap();
     assert!((mean - 0.015_486).abs() < 1.3e-4, "{mean}");
     let u = trials.standard_uncertainty.unwrap();
@@ -310,7 +310,7 @@ fn resistance_and_reactance_of_the_supplement() {
     }
     assert!(linear.ellipsoid_k.is_none());
     near(two.gum.as_ref().unwrap().ellipsoid_k.unwrap(), 2.447_746_830_680_816, 1e-12);
-    let found = two.monte_carlo.as_ref().unwrap();
+    let found = two.monte_carlo.as_deref().unwrap();
     near(found.smallest.as_ref().unwrap().volume, 0.3197, 0.04);
     assert!(two.validation.as_ref().unwrap().gum_valid);
 }

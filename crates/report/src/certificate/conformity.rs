@@ -90,7 +90,7 @@ fn said(row: &StatedRow<'_>, found: &Conformity, of: SentenceLanguage) -> String
     // a risk that is the probability of conformity of a value that is rejected (JCGM 106, 9.3)
     let chance = if found.conforms { words.conforming } else { words.all_the_same };
     // a stated uncertainty that replaces the evaluated one has no trials
-    let trials = row.found.monte_carlo.as_ref().filter(|_| !row.is_raised());
+    let trials = row.found.monte_carlo.as_deref().filter(|_| !row.is_raised());
     let trials = trials.map(|figures| figures.trials);
     let probability = percent(percent_of(found, found.probability, trials), of);
     let mut parts: Vec<String> = specification(row, of).into_iter().collect();

@@ -168,7 +168,7 @@ impl StatedRow<'_> {
     /// The last digit of the coverage factor: with trials, a digit that another seed would not
     /// change, so that similar rows do not seem to differ.
     fn factor_place(&self) -> i32 {
-        let trials = self.found.monte_carlo.as_ref();
+        let trials = self.found.monte_carlo.as_deref();
         let (Basis::Shortest, Some(trials)) = (self.statement.basis, trials) else { return FACTOR };
         // results without noise do not depend on the seed
         if self.statement.without_trials {

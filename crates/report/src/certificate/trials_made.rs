@@ -9,7 +9,7 @@ pub(super) fn of_file(report: &CertificateReport<'_>, file: usize) -> Option<[u6
     let asked = report.certificate.evaluations.iter().zip(&report.issued.evaluations);
     let rows = asked.filter(|(asked, _)| asked.file == file).flat_map(|(_, found)| &found.rows);
     let outputs = rows.flat_map(|row| &row.outputs);
-    let made = outputs.filter_map(|output| Some(output.monte_carlo.as_ref()?.trials));
+    let made = outputs.filter_map(|output| Some(output.monte_carlo.as_deref()?.trials));
     made.fold(None, |range, trials| {
         let [least, most] = range.unwrap_or([trials; 2]);
         Some([trials.min(least), trials.max(most)])

@@ -38,7 +38,7 @@ pub(super) fn remarks(report: &EvaluationReport<'_>, row: &RowEvaluation) -> Vec
 }
 
 fn of_output(settings: &Settings, output: &Output, found: &OutputEvaluation) -> Vec<String> {
-    let trials = found.monte_carlo.as_ref().map(|figures| figures.trials);
+    let trials = found.monte_carlo.as_deref().map(|figures| figures.trials);
     let decided = found.conformity.as_deref().map(|conformity| {
         comparison::decided(&output.quantity, conformity, (trials, settings.coverage))
     });

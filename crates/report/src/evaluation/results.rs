@@ -128,7 +128,7 @@ fn verdict(settings: &Settings, stated: &Output, found: &OutputEvaluation) -> Ve
             said.extend(interval.map(|said| sentence(&said)));
         }
     }
-    let trials = found.monte_carlo.as_ref().map(|figures| figures.trials);
+    let trials = found.monte_carlo.as_deref().map(|figures| figures.trials);
     let beside = (trials, settings.coverage);
     said.extend(found.conformity.iter().flat_map(|c| comparison::conformity(output, c, beside)));
     said.extend(comparison::capability(stated, found, settings.digits_on_pages()));
@@ -259,7 +259,7 @@ impl<'a> Taken<'a> {
         let Some(stated) = Stated::of(found, settings) else {
             return found.gum.as_ref().map_or(Self::Undefined, Self::Standard);
         };
-        match found.monte_carlo.as_ref().filter(|_| stated.basis == Basis::Shortest) {
+        match found.monte_carlo.as_deref().filter(|_| stated.basis == Basis::Shortest) {
             Some(figures) => {
                 let located = found.located().unwrap_or((figures.median, f64::NAN));
                 Self::Interval { figures, located }

@@ -36,7 +36,7 @@ struct IntervalLine {
 
 /// The coverage intervals of both methods, and the limits of an output with a tolerance.
 fn intervals(found: &OutputEvaluation) -> Vec<IntervalLine> {
-    let figures = found.monte_carlo.as_ref();
+    let figures = found.monte_carlo.as_deref();
     let conformity = found.conformity.as_deref();
     let guarded = conformity.filter(|of| of.is_guarded());
     let computed = [

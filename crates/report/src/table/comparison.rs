@@ -350,7 +350,7 @@ impl<'a> Lines<'a> {
     /// Nothing without trials and without figures that have no noise.
     fn of(figures: &'a OutputEvaluation, digits: u32) -> Option<Self> {
         let noiseless = figures.noiseless.as_ref().and_then(|found| found.as_deref().ok());
-        let trials = figures.monte_carlo.as_ref();
+        let trials = figures.monte_carlo.as_deref();
         (trials.is_some() || noiseless.is_some()).then(|| Self {
             lines: lines(figures.gum.as_ref(), trials, noiseless, digits),
             has_trials: trials.is_some(),
@@ -541,7 +541,7 @@ pub(crate) fn verdict(
 /// What is doubtful of a result, and which result is stated: one sentence without its subject; `None`
 /// if clause 8 of JCGM 101 validates the GUM interval, or without trials.
 pub(crate) fn doubt(figures: &OutputEvaluation, settings: &Settings) -> Option<String> {
-    let monte_carlo = figures.monte_carlo.as_ref()?;
+    let monte_carlo = figures.monte_carlo.as_deref()?;
     let taken = taken(figures, monte_carlo, settings);
     let Some(validation) = &figures.validation else {
         return Some(format!("there is no GUM interval. {taken}"));

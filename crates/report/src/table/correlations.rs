@@ -34,9 +34,9 @@ pub(crate) fn found(task: &Task, row: &RowEvaluation) -> Option<Coefficients> {
         let said = format!("{pairs} correlation coefficients of the outputs: --format json");
         return Some(Coefficients::TooMany(said));
     }
-    let trials = row.outputs.first()?.monte_carlo.as_ref().map(|figures| figures.trials);
+    let trials = row.outputs.first()?.monte_carlo.as_deref().map(|figures| figures.trials);
     let scatters = |i: usize| {
-        let figures = row.outputs.get(i).and_then(|output| output.monte_carlo.as_ref());
+        let figures = row.outputs.get(i).and_then(|output| output.monte_carlo.as_deref());
         figures.is_none_or(|of| of.standard_uncertainty.is_some())
     };
     let places = (0..names.len()).flat_map(|i| (i + 1..names.len()).map(move |j| (i, j)));

@@ -110,7 +110,7 @@ pub(crate) fn stopped(evaluation: &Evaluation) -> Option<String> {
 /// The trials behind the figures, of all rows together.
 fn trials_made(evaluation: &Evaluation) -> u64 {
     let outputs = evaluation.rows.iter().filter_map(|row| row.outputs.first());
-    outputs.filter_map(|output| output.monte_carlo.as_ref()).map(|figures| figures.trials).sum()
+    outputs.filter_map(|output| output.monte_carlo.as_deref()).map(|figures| figures.trials).sum()
 }
 
 pub(super) fn coverage_text(coverage: Coverage) -> String {

@@ -313,7 +313,7 @@ struct SweepLine {
 /// (JCGM 101, 5.3.4), the symmetric one otherwise.
 fn line(output: Option<&OutputEvaluation>, digits: u32) -> SweepLine {
     let gum = output.and_then(|output| output.gum.as_ref());
-    let figures = output.and_then(|output| output.monte_carlo.as_ref());
+    let figures = output.and_then(|output| output.monte_carlo.as_deref());
     let gum_position = gum.and_then(|gum| position(gum.standard_uncertainty, digits));
     let own = figures.and_then(|figures| figures.standard_uncertainty);
     let spread = own.or_else(|| gum.map(|gum| gum.standard_uncertainty));

@@ -47,7 +47,7 @@ fn counts_do_not_depend_on_threads_or_memory() {
     let three = counted(&case, &Control::default().with_threads(3).with_memory(1 << 20));
     assert_eq!(one, three);
     let histogram = one[0].as_ref().unwrap();
-    let figures = case.evaluation.rows[0].outputs[0].monte_carlo.as_ref().unwrap();
+    let figures = case.evaluation.rows[0].outputs[0].monte_carlo.as_deref().unwrap();
     assert!(histogram.low < figures.symmetric_interval[0]);
     assert!(histogram.high() > figures.symmetric_interval[1]);
 }

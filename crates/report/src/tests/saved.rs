@@ -51,7 +51,7 @@ impl Run {
     }
 
     fn trials(&self, output: usize) -> &MonteCarlo {
-        self.evaluation.rows[0].outputs[output].monte_carlo.as_ref().unwrap()
+        self.evaluation.rows[0].outputs[output].monte_carlo.as_deref().unwrap()
     }
 
     /// Writes the result file; the model's hash is `model`.

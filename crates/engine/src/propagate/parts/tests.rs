@@ -175,7 +175,7 @@ fn an_undecided_run_goes_on() {
     let open = (1..=20).find_map(|seed| {
         task.settings.seed = seed;
         let whole = evaluate(&task, &control).unwrap();
-        let further = whole.rows[0].outputs[0].monte_carlo.as_ref().unwrap().trials > 1_000_000;
+        let further = whole.rows[0].outputs[0].monte_carlo.as_deref().unwrap().trials > 1_000_000;
         further.then_some(whole)
     });
     // false in one of a million runs at most, were the seeds not fixed

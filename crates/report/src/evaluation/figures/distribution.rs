@@ -69,7 +69,7 @@ pub(in crate::evaluation) fn distribution(
     histogram: &Histogram,
     probability: f64,
 ) -> Option<Drawing> {
-    let figures = found.monte_carlo.as_ref()?;
+    let figures = found.monte_carlo.as_deref()?;
     let gum = found.gum.as_ref();
     let (low, high) = (histogram.low, histogram.high());
     let place = |share: f64| low + share * (high - low);

@@ -541,7 +541,7 @@ impl Block<'_> {
                 _ => leaf.number((at, 2), value.unwrap_or(f64::NAN), shown, Look::Plain)?,
             }
         }
-        let figures = found.outputs.get(output).and_then(|output| output.monte_carlo.as_ref());
+        let figures = found.outputs.get(output).and_then(|output| output.monte_carlo.as_deref());
         let Some(figures) = figures else { return Ok(()) };
         inputs.marked(leaf, (first - 1, 4), "Monte Carlo")?;
         let values = [

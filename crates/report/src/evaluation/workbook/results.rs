@@ -293,7 +293,7 @@ impl Deciding {
         if let Some(turns) = gum.and_then(|gum| turned(gum.estimate)) {
             return Self::Propagated(turns);
         }
-        let trials = found.monte_carlo.as_ref();
+        let trials = found.monte_carlo.as_deref();
         match trials.map(|of| (of.estimate == Some(decided), of.median == decided)) {
             Some((true, _)) => Self::Evaluated(OF_TRIALS),
             Some((_, true)) => Self::Evaluated(MEDIAN),
@@ -328,7 +328,7 @@ fn decided(
         leaf.number(place(figure), limit.unwrap_or(f64::NAN), None, Look::Plain)?;
     }
     let now = |value: f64| Cached::Number(value);
-    let of_trials = found.monte_carlo.as_ref().and_then(|of| of.standard_uncertainty);
+    let of_trials = found.monte_carlo.as_deref().and_then(|of| of.standard_uncertainty);
     let propagated = found.gum.as_ref().map(|gum| gum.standard_uncertainty);
     let deciding = Deciding::of(conformity, output, found);
     let (formula, u) = match deciding {
