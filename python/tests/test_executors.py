@@ -334,5 +334,5 @@ def test_draws_in_files(program: str, tmp_path: Path) -> None:
     (folder / "a").write_bytes(text)
     (folder / "c").write_bytes(text)
     twice = check("--parts", folder)
-    assert twice.returncode == 2 and b"the draws 0..2 are in" in twice.stderr
-    assert b"none of them from 4 on" in check("--share", "4..5", "--partial", folder / "d").stderr
+    assert twice.returncode == 2 and b"the draws 0..2 are also in" in twice.stderr
+    assert b"none from 4 on" in check("--share", "4..5", "--partial", folder / "d").stderr

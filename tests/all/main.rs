@@ -1,4 +1,5 @@
 //! Tests of the whole program: files in, answers out.
+#![cfg(feature = "cli")]
 #![allow(clippy::disallowed_methods)] // nothing of this is printed as a result
 #![allow(missing_docs)]
 #![allow(clippy::unwrap_used, clippy::expect_used, clippy::panic, clippy::print_stdout)]

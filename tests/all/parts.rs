@@ -326,52 +326,6 @@ fn an_interrupted_run_is_resumed() {
     assert!(code == 2 && said.contains("seed"), "{said}");
 }
 
-/// A stand-in for Slurm: it does what it is told to, one task after the other.
-#[cfg(unix)]
-const SBATCH: &str = r#"#!/bin/sh
-tasks=
-for word; do case $word in --array=1-*) tasks=${word#--array=1-} ;; esac; done
-for job; do :; done
-task=1
-while [ "$task" -le "$tasks" ]; do
-    SLURM_ARRAY_TASK_ID=$task SLURM_CPUS_PER_TASK=2 sh "$job" || exit
-    task=$((task + 1))
-done
-"#;
-
-/// The example for Slurm: with options, whatever stands in them, and without any; and without what it
-/// needs it says what that is.
-#[cfg(unix)]
-#[test]
-fn the_example_for_slurm_works_with_and_without_options() {
-    use std::os::unix::fs::PermissionsExt;
-    let place = Place::new(MANY);
-    let sbatch = place.path().join("sbatch");
-    fs::write(&sbatch, SBATCH).unwrap();
-    fs::set_permissions(&sbatch, fs::Permissions::from_mode(0o755)).unwrap();
-    let path = std::env::var("PATH").unwrap_or_default();
-    let run = |arguments: &[&str]| {
-        let mut shell = crate::process::Command::new("sh");
-        shell.env("PATH", format!("{}:{path}", place.path().display()));
-        shell.env("GUMPTION", env!("CARGO_BIN_EXE_gumption"));
-        shell.arg(root().join("examples/batch/slurm.sh")).args(arguments);
-        shell.current_dir(place.path()).output().unwrap()
-    };
-    let options = ["--trials", "600000", "--memory", "1M", "--set", "a= 2"];
-    let whole = place.done(&[&["run", "m.json", "--format", "json"][..], &options].concat());
-    let wanted = ["3", "m.json", "it's work", "--format json --output answer.json"];
-    let done = run(&[&wanted[..], &options].concat());
-    assert!(done.status.success(), "{}", String::from_utf8_lossy(&done.stderr));
-    assert_eq!(fs::read(place.path().join("answer.json")).unwrap(), whole);
-    let done = run(&["2", "m.json", "usual"]);
-    assert!(done.status.success(), "{}", String::from_utf8_lossy(&done.stderr));
-    assert_eq!(done.stdout, place.done(&["run", "m.json"]));
-    let refused = run(&["2"]);
-    let said = String::from_utf8_lossy(&refused.stderr);
-    assert_eq!(refused.status.code(), Some(2));
-    assert!(said.contains("slurm.sh N MODEL DIR"), "{said}");
-}
-
 /// The example for batch systems does what it says, here with the shell in place of Slurm.
 #[cfg(unix)]
 #[test]

@@ -216,7 +216,7 @@ def gap_check(
         Number of truths to draw.
     seed, threads, keep : optional
         As on the command line.
-    executor : concurrent.futures.Executor or distributed.Client, optional
+    executor : concurrent.futures.Executor, distributed.Client or the module ray, optional
         Distributes the draws; the answer has the same bytes as on this machine.
     """
     options = _options(draws=draws, seed=seed, threads=threads, keep=keep)

@@ -531,7 +531,7 @@ def diagnose(
         The simulator is run so many times at most.
     noisy : bool, default False
         Whether answers to the same parameters scatter.
-    executor : concurrent.futures.Executor or distributed.Client, optional
+    executor : concurrent.futures.Executor, distributed.Client or the module ray, optional
         Makes the runs.
     resume : path-like, optional
         A folder in which each run is kept as soon as it ends, and from which those that are there are taken.

@@ -8,6 +8,7 @@ rejected.
 from __future__ import annotations
 
 import functools
+import importlib
 import os
 import pickle
 import tempfile
@@ -60,14 +61,16 @@ class Workers:
 
     @staticmethod
     def of(executor: Any) -> Workers:
-        """The workers behind an executor or a Dask client."""
+        """The workers behind an executor, a Dask client, or the module ``ray``."""
         if isinstance(executor, futures.Executor):
-            return Workers(executor)
+            return (_LokyWorkers if hasattr(executor, "get_reusable_executor") else Workers)(executor)
         if callable(getattr(executor, "nthreads", None)):
             return _DaskWorkers(executor)
+        if getattr(executor, "__name__", None) == "ray":
+            return _RayWorkers(executor)
         raise TypeError(
-            "`executor` is to be an executor of concurrent.futures or a Dask client, not "
-            f"{type(executor).__name__}"
+            "`executor` must be an executor of concurrent.futures or loky, a Dask client, or the module "
+            f"`ray`, not {type(executor).__name__}"
         )
 
     def __enter__(self) -> Workers:
@@ -158,6 +161,71 @@ class Workers:
         if self._own is not None:
             self._own.shutdown(wait=False, cancel_futures=True)
         self._own = self._executor = futures.ProcessPoolExecutor(**settings)  # type: ignore[arg-type]
+
+
+class _LokyWorkers(Workers):
+    """The workers behind the reusable executor of loky, as joblib has it."""
+
+    def pickled(self, what: object) -> bytes:
+        # of the loky that is there: joblib has one of its own, and older versions a cloudpickle
+        loky = type(self._executor).__module__.rpartition(".")[0]
+        found = importlib.import_module(f"{loky}.cloudpickle_wrapper").dumps(what)
+        assert isinstance(found, bytes)
+        return found
+
+    def _replace(self, error: futures.BrokenExecutor) -> None:
+        broken: Any = self._executor
+        # the executor of all others in this process from now on, which therefore outlives the run
+        self._executor, _ = broken.get_reusable_executor(
+            max_workers=broken._max_workers, context=broken._context, timeout=broken._timeout,
+            initializer=broken._initializer, initargs=broken._initargs, env=broken._env,
+        )  # fmt: skip
+
+
+class _RayWorkers(Workers):
+    """The workers of the cluster that the module ``ray`` of this process is connected to."""
+
+    def __init__(self, ray: Any) -> None:
+        self._ray, self._own = ray, None
+        self._there: dict[futures.Future[Any], Any] = {}
+        # Ray would repeat work of a lost worker without counting it here
+        self._run = ray.remote(max_retries=0)(_call)
+
+    @property
+    def count(self) -> int:
+        if not self._ray.is_initialized():
+            # what the first task would do otherwise
+            self._ray.init()
+        return max(1, int(self._ray.cluster_resources().get("CPU", 1)))
+
+    def pickled(self, what: object) -> bytes:
+        found = self._ray.cloudpickle.dumps(what)
+        assert isinstance(found, bytes)
+        return found
+
+    def _submit(self, work: Work) -> futures.Future[Any]:
+        there = self._run.remote(*work)
+        ended: futures.Future[Any] = there.future()
+        self._there[ended] = there
+        return ended
+
+    def _result(self, future: futures.Future[Any]) -> Any:
+        del self._there[future]
+        try:
+            return future.result()
+        except self._ray.exceptions.RayTaskError as error:
+            # what the work raised, without Ray's account of it
+            raise error.cause from None
+        except self._ray.exceptions.RayError as error:
+            raise Lost from error
+
+    def _cancel(self, future: futures.Future[Any]) -> None:
+        self._ray.cancel(self._there.pop(future))
+
+
+def _call(function: Callable[..., Any], arguments: tuple[Any, ...]) -> Any:
+    """One unit of work, at a worker."""
+    return function(*arguments)
 
 
 class _DaskWorkers(Workers):
@@ -266,7 +334,7 @@ def run_on(
     ----------
     model, options : Model, dict
         The run.
-    executor : concurrent.futures.Executor or distributed.Client
+    executor : concurrent.futures.Executor, distributed.Client or the module ray
         Makes the parts.
     parts : int, optional
         Number of parts of each pass.

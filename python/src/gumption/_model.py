@@ -169,11 +169,12 @@ class Model(Generic[Figure_co]):
             Bytes for kept values of trials; 64 MiB unless given.
         progress : bool or callable, default False
             Show a bar of ``tqdm``, or call this from time to time with the number of completed trials.
-        executor : concurrent.futures.Executor or distributed.Client, optional
-            Distributes the run: a process pool, a Dask client. Its workers make ranges of blocks of
-            trials, on one thread each unless `threads` is given, which are merged here in any
-            order; rows of conditions are distributed likewise. The result has the same bits as on
-            this machine, and a part lost with its worker is repeated.
+        executor : concurrent.futures.Executor, distributed.Client or the module ray, optional
+            Distributes the run: a process pool, loky's reusable executor, a Dask client, or the module
+            `ray` for the cluster it is connected to. The workers make ranges of blocks of trials, on
+            one thread each unless `threads` is given, which are merged here in any order; rows of
+            conditions are distributed likewise. The result has the same bits as on this machine, and
+            a part lost with its worker is repeated.
         parts : int, optional
             With `executor`, the number of parts of each pass over the trials; the default is 64, or
             8 for each worker, or enough that no part is longer than 134 million trials.
