@@ -54,7 +54,15 @@ class GroupedReadings:
         self.dof = n - 1.0
 
     def in_order_of(self, other: GroupedReadings, name: str, of: str) -> tuple[Column, Column, Column]:
-        """The figures in the order of the groups of another input, which are the same groups."""
+        """The means, standard uncertainties and degrees of freedom in the order of the groups of another input.
+
+        Parameters
+        ----------
+        other : GroupedReadings
+            Readings of the same groups.
+        name, of : str
+            The names of these inputs in messages.
+        """
         figures = (self.mean, self.standard_uncertainty, self.dof)
         if self is other:
             return figures
