@@ -103,7 +103,9 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
         for seed in 0..RUNS {
             task.settings.seed = seed;
             let run = evaluate(&task, &control)?;
-            ends.extend(run.rows[0].outputs[0].monte_carlo.as_deref().map(|m| m.symmetric_interval));
+            ends.extend(
+                run.rows[0].outputs[0].monte_carlo.as_deref().map(|m| m.symmetric_interval),
+            );
         }
         for (end, which) in ["lower", "upper"].into_iter().enumerate() {
             let n = ends.len() as f64;

@@ -352,5 +352,9 @@ fn results(
 /// The trials of a row.
 fn made(evaluation: &Evaluation) -> u64 {
     let outputs = evaluation.rows.iter().flat_map(|row| &row.outputs);
-    outputs.filter_map(|output| output.monte_carlo.as_deref()).map(|of| of.trials).max().unwrap_or(0)
+    outputs
+        .filter_map(|output| output.monte_carlo.as_deref())
+        .map(|of| of.trials)
+        .max()
+        .unwrap_or(0)
 }

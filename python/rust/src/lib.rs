@@ -17,6 +17,7 @@ mod parts;
 mod run;
 mod shown;
 mod supervised;
+mod units;
 
 use pyo3::prelude::*;
 
@@ -47,16 +48,16 @@ fn _gumption(module: &Bound<'_, PyModule>) -> PyResult<()> {
     module.add_function(wrap_pyfunction!(call::call, module)?)?;
     module.add_function(wrap_pyfunction!(call::carried_models, module)?)?;
     module.add_function(wrap_pyfunction!(call::case_source, module)?)?;
-    module.add_function(wrap_pyfunction!(call::convert, module)?)?;
+    module.add_function(wrap_pyfunction!(units::convert, module)?)?;
     module.add_function(wrap_pyfunction!(call::main, module)?)?;
-    module.add_function(wrap_pyfunction!(call::unit_of_differences, module)?)?;
-    module.add_function(wrap_pyfunction!(call::unit_product, module)?)?;
+    module.add_function(wrap_pyfunction!(units::unit_of_differences, module)?)?;
+    module.add_function(wrap_pyfunction!(units::unit_product, module)?)?;
     module.add_function(wrap_pyfunction!(shown::equation_html, module)?)?;
     module.add_function(wrap_pyfunction!(shown::equation_latex, module)?)?;
     module.add_function(wrap_pyfunction!(shown::input_keys, module)?)?;
     module.add_function(wrap_pyfunction!(shown::printed, module)?)?;
-    module.add_function(wrap_pyfunction!(call::unit_scale, module)?)?;
-    module.add_function(wrap_pyfunction!(call::unit_within, module)?)?;
-    module.add_function(wrap_pyfunction!(call::units_fit, module)?)?;
+    module.add_function(wrap_pyfunction!(units::unit_scale, module)?)?;
+    module.add_function(wrap_pyfunction!(units::unit_within, module)?)?;
+    module.add_function(wrap_pyfunction!(units::units_fit, module)?)?;
     Ok(())
 }

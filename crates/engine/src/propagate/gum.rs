@@ -349,7 +349,13 @@ impl Linked {
 impl GumRows<'_> {
     /// The evaluation of one output from its estimate and its sensitivity coefficients; `None` where
     /// the standard uncertainty is not finite.
-    fn output(&self, row: &Row, estimate: f64, slopes: &[f64], linked: &Arc<Linked>) -> Option<Gum> {
+    fn output(
+        &self,
+        row: &Row,
+        estimate: f64,
+        slopes: &[f64],
+        linked: &Arc<Linked>,
+    ) -> Option<Gum> {
         let settings = &self.task.settings;
         let lines: Vec<BudgetLine> = row
             .distributions
