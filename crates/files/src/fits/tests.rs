@@ -163,7 +163,7 @@ fn a_region_of_two_outputs() {
     }
     near(gum.ellipsoid_k.unwrap(), 2.447_746_830_680_816, 1e-12);
     near(gum.box_k.unwrap(), 2.241_402_727_604_945, 1e-12);
-    let found = region.monte_carlo.as_deref().unwrap();
+    let found = region.monte_carlo.as_ref().unwrap();
     let error = found.ellipsoid_error.unwrap();
     assert!(error < 0.02 && found.box_error < 0.02, "{error} {}", found.box_error);
     assert!((found.region.ellipsoid_k.unwrap() - 2.447_746_8).abs() < 5.0 * error);
@@ -310,7 +310,7 @@ fn resistance_and_reactance_of_the_supplement() {
     }
     assert!(linear.ellipsoid_k.is_none());
     near(two.gum.as_ref().unwrap().ellipsoid_k.unwrap(), 2.447_746_830_680_816, 1e-12);
-    let found = two.monte_carlo.as_deref().unwrap();
+    let found = two.monte_carlo.as_ref().unwrap();
     near(found.smallest.as_ref().unwrap().volume, 0.3197, 0.04);
     assert!(two.validation.as_ref().unwrap().gum_valid);
 }
