@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import copy
 import math
 import pickle
 from typing import Any
@@ -95,6 +96,7 @@ class TestFigures:
         assert str(gu.constant(5)) == "5"
         assert repr(gu.normal(5, 0.1, "V", name="V") - gu.constant(5, "V")).startswith("<gumption.Expression V - 5 [V] =")
         assert f"{2 * gu.normal(100, 20, 'g')}" == "200(40) g"
+        assert str(gu.normal(0.0034112, 1.2e-6)) == "0.0034112(12)"
         assert repr(2 * gu.normal(1, 0.1, "V", name="v")) == "<gumption.Expression 2*v = 2.00(20) V>"
         assert str(gu.complex_normal(3 - 4j, 0.1)) == "(3.00(10)-4.00(10)j)"
         assert str(gu.array([1, 2], 0.1, "V")) == "[1.00(10) V 2.00(10) V]"
@@ -155,6 +157,18 @@ class TestIdentity:
         assert (again - other).u == (total - x).u
         assert other.name == "x"
 
+    def test_long_expressions_are_copied(self) -> None:
+        total = sum(gu.normal(1, 0.1) for _ in range(2000))
+        close((pickle.loads(pickle.dumps(total)) - total).u, 0)
+        close((copy.deepcopy(total) - total).u, 0)
+
+    def test_few_paired_readings(self) -> None:
+        first, second = [1, 2, 3, 4.5], [2, 2.5, 3.5, 4]
+        total = gu.readings(first, paired=True) + gu.readings(second, paired=True)
+        # s/sqrt(n) of the sums (JCGM 100, 5.2.3); with trials five readings at least are needed
+        close(total.u, np.std(np.add(first, second), ddof=1) / 2)
+        close(total.run(trials=0).y.u, total.u)
+
     def test_a_sum_of_many(self) -> None:
         x = gu.normal(1, 0.1)
         total: Any = 0
@@ -188,6 +202,10 @@ class TestUnits:
         close([(high - low).estimate, (high - low).u], [5, 0.05])
         assert (low + gu.constant(1, "K")).unit == "degC"
         close((low + gu.constant(1, "K")).estimate, 21)
+        close([(1 / gu.kelvin(low)).estimate, (1 / gu.kelvin(low)).u], [1 / 293.15, 0.03 / 293.15**2])
+        assert str(gu.celsius(gu.normal(300, 1, "K"))) == "26.9(1.0) degC"
+        frequency = gu.normal(50, 0.1, "Hz")
+        close((2 * np.pi * frequency).to("rad/s").estimate, 100 * math.pi)
 
     def test_mistakes_are_told_at_the_operation(self) -> None:
         v, ohm, number = gu.normal(1, 0.1, "V"), gu.normal(2, 0.1, "ohm"), gu.normal(1, 0.1)
@@ -200,7 +218,8 @@ class TestUnits:
             (lambda: v.to("A"), "a quantity in V is none in A"),
             (lambda: np.sin(np.deg2rad(gu.normal(30, 1, "deg"))), "angles in radians already"),
             (lambda: np.degrees(np.arctan(number)), "angles in radians already"),
-            (lambda: gu.normal(300, 1, "K").to("degC"), "a value from its zero or a difference"),
+            (lambda: gu.normal(300, 1, "K").to("degC"), "`gumption.celsius(T)`"),
+            (lambda: gu.normal(20, 1, "deg") + 1, "`gumption.constant(1, \"deg\")` says which"),
         ]:
             with pytest.raises(gu.ModelError) as error:
                 make()
@@ -235,6 +254,18 @@ class TestNumbers:
         # Phi(0.1/0.141); the standard error of a share of 1e6 trials is below 5e-4; five of them
         probability = (x < y).probability(1_000_000, seed=1)
         assert probability == pytest.approx(0.5 * (1 + math.erf(0.1 / math.sqrt(0.02) / math.sqrt(2))), abs=2.5e-3)
+
+    def test_rare_and_combined_comparisons(self) -> None:
+        x = gu.normal(0, 1)
+        # the standard error of a share of 0.01 of 1e5 trials is 3e-4; five of them
+        assert (x > 2.326348).probability(100_000, seed=1) == pytest.approx(0.01, abs=1.6e-3)
+        assert (x < 9).probability(1000, seed=1) == 1
+        within = (x > -1) & (x < 1)
+        # 0.6827, with a standard error of 1.5e-3; five of them
+        assert within.probability(100_000, seed=1) == pytest.approx(math.erf(math.sqrt(0.5)), abs=7.4e-3)
+        assert (within | ~within).probability(1000, seed=1) == 1
+        with pytest.raises(TypeError, match="probability"):
+            bool(within)
 
     def test_keys(self) -> None:
         x, y = gu.normal(1, 0.1), gu.normal(1, 0.1)
@@ -274,6 +305,27 @@ class TestArrays:
         # sqrt(0.4); the relative standard error is 7e-4; five of them
         assert found == pytest.approx(math.sqrt(0.4), rel=3.5e-3)
 
+    def test_declared_correlations(self) -> None:
+        x, y = gu.normal(1, 0.1), gu.normal(2, 0.2)
+        a, b = gu.correlated([x, y], [[1, 0.5], [0.5, 1]])
+        known = math.sqrt(0.01 + 0.04 + 2 * 0.5 * 0.1 * 0.2)
+        # what it returns are the same quantities, and either of them has the coefficient
+        close([(a + b).u, (x + b).u, (a + y).u, (a - x).u, (x + y).u], [known, known, known, 0, math.sqrt(0.05)])
+        close((y + x + b - y).u, known)
+        _, other = gu.correlated([x, y], [[1, 0.9], [0.9, 1]])
+        with pytest.raises(gu.ModelError, match="two correlation coefficients"):
+            (a + other).u  # noqa: B018
+
+    def test_comparisons_and_places(self) -> None:
+        x = gu.array([1, 2, 3], 0.1, "m")
+        limit = gu.constant(2.5, "m")
+        assert [of.symbol for of in x > limit] == [">"] * 3
+        close(np.where(x > limit, x, 0 * limit).estimate, [0, 0, 3])
+        close(np.where([True, False, True], x, 2 * x).estimate, [1, 4, 3])
+        x += limit
+        close(x.estimate, [3.5, 4.5, 5.5])
+        close(x.to("mm").u, [100, 100, 100])
+
     def test_shapes(self) -> None:
         a = gu.array(np.arange(6.0).reshape(2, 3), 0.1)
         assert a.estimate.shape == (2, 3)
@@ -310,6 +362,9 @@ class TestArrays:
             (lambda: gu.array([x, x], 0.1), "give them alone"),
             (lambda: gu.array([1, 2], 0.1, names=["a"]), "`names`"),
             (lambda: gu.correlated([x, 2 * x], np.eye(2)), "an input is needed"),
+            (lambda: gu.correlated([x, x], np.eye(2)), "one quantity is given twice"),
+            (lambda: gu.array([1 + 1j, 2], 0.1), "gumption.complex_normal"),
+            (lambda: gu.array([1, math.nan], 0.1), "is nan"),
         ]:
             with pytest.raises((TypeError, ValueError)) as error:
                 make()
@@ -329,6 +384,8 @@ class TestComplex:
         assert np.angle(z).unit == "rad"
         close((z * np.conj(z) - abs(z) ** 2).u, (0, 0))
         close([z.real.estimate, z.imag.u], [3, 0.2])
+        # what is exact has no covariance
+        close((gu.normal(1, 0.1) + 1j).covariance, [[0.01, 0], [0, 0]])
 
     def test_forms(self) -> None:
         x, y = gu.normal(1, 0.1), gu.normal(2, 0.2)

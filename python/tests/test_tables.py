@@ -79,9 +79,12 @@ class TestXarray:
         masses.piece.attrs["long_name"] = "test piece"
         diameters = xarray.DataArray([1.2, 1.3], dims="day", coords={"day": [3, 5]}, attrs={"unit": "cm"})
         u = xarray.DataArray([5.0, 8.0], dims="day", coords={"day": [3, 5]}, attrs={"units": "um"})
+        u_mass = xarray.DataArray(0.01, attrs={"units": "g"})
         found = gu.budgets(
-            cylinder, mass=(masses, 0.01), diameter=(diameters, u), height=(24.0, 0.012)
+            cylinder, mass=(masses, u_mass), diameter=(diameters, u), height=(24.0, 0.012)
         ).to_xarray()
+        with pytest.raises(gu.ModelError, match="`mass`: .* can be in kg or in g"):
+            gu.budgets(cylinder, mass=(masses, 0.01), diameter=12.0, height=24.0)
         assert found.estimate.dims == ("piece", "day")
         assert found.piece.values.tolist() == list("abcd") and found.day.values.tolist() == [3, 5]
         assert found.piece.attrs == {"long_name": "test piece"} and found.bench.item() == 7

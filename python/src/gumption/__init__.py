@@ -30,7 +30,9 @@ _HOME = {
     "_result": ["Budget", "Gum", "MonteCarlo", "Output", "Result"],
     "_samples": ["Samples", "SampleTable"],
     "_trace": ["quantity"],
-    "_quantity": ["Comparison", "ComplexUncertainty", "Expression", "Quantity", "model_of"],
+    "_quantity": [
+        "Comparison", "ComplexUncertainty", "Expression", "Quantity", "celsius", "kelvin", "model_of",
+    ],
     "_arrays": ["Quantities", "array", "complex_normal", "correlated"],
     "_budgets": ["OutputBudgets", "budgets"],
     "_grouped_readings": ["GroupedReadings", "readings_by"],

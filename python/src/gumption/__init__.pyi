@@ -45,6 +45,8 @@ from gumption._quantity import (
     ComplexUncertainty as ComplexUncertainty,
     Expression as Expression,
     Quantity as Quantity,
+    celsius as celsius,
+    kelvin as kelvin,
     model_of as model_of,
 )
 from gumption._result import (
@@ -111,6 +113,7 @@ __all__ = [
     "beta",
     "budgets",
     "call",
+    "celsius",
     "certificate",
     "check",
     "compare",
@@ -128,6 +131,7 @@ __all__ = [
     "gamma",
     "gap",
     "gap_check",
+    "kelvin",
     "known",
     "load",
     "log_uniform",

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import operator
 from collections.abc import Callable, Sequence
 from typing import TYPE_CHECKING, Any
 
@@ -70,8 +71,7 @@ class Quantities(np.ndarray[Any, np.dtype[Any]]):
         """The covariance matrix of the quantities in the order of ``ravel()``, by the law of propagation."""
         result = self.run(trials=0)
         u = np.array([of.gum.standard_uncertainty for of in result.values()], dtype=float)
-        matrix: Numbers = result.correlations() * np.outer(u, u)
-        return matrix
+        return covariances(result.correlations(), u)
 
     def model(self, names: Sequence[str] | None = None, *, title: str | None = None) -> Model:
         """One model of all quantities.
@@ -136,14 +136,42 @@ class Quantities(np.ndarray[Any, np.dtype[Any]]):
         plain = np.asarray(self, dtype=object)
         return np.array2string(plain, separator=separator, formatter={"object": str})
 
+    def to(self, unit: str) -> Quantities:
+        """The same quantities in another unit.
+
+        Parameters
+        ----------
+        unit : str
+            The unit.
+        """
+        return _shaped([of.to(unit) for of in self._quantities()], self.shape)
+
+    # comparisons are quantities, of which numpy would ask the truth
+    def __lt__(self, other: Any) -> Any:
+        return _compared(operator.lt, self, other)
+
+    def __le__(self, other: Any) -> Any:
+        return _compared(operator.le, self, other)
+
+    def __gt__(self, other: Any) -> Any:
+        return _compared(operator.gt, self, other)
+
+    def __ge__(self, other: Any) -> Any:
+        return _compared(operator.ge, self, other)
+
+    def __eq__(self, other: object) -> Any:
+        return _compared(operator.eq, self, other)
+
+    def __ne__(self, other: object) -> Any:
+        return _compared(operator.ne, self, other)
+
     def __array_function__(self, function: Any, types: Any, arguments: Any, options: Any) -> Any:
         name = f"{function.__module__}.{function.__name__}"
         if name in _LINEAR and not options:
             found = _LINEAR[name](*arguments)
             return found.view(Quantities) if isinstance(found, np.ndarray) else found
         if name == "numpy.where" and len(arguments) == 3 and not options:
-            choose = np.frompyfunc(_chosen, 3, 1)
-            return choose(*(np.asarray(value, dtype=object) for value in arguments)).view(Quantities)
+            return chosen(*arguments)
         made = super().__array_function__(function, types, arguments, options)
         return made.view(Quantities) if isinstance(made, np.ndarray) and made.dtype == object else made
 
@@ -151,6 +179,40 @@ class Quantities(np.ndarray[Any, np.dtype[Any]]):
         # the sum of all is a quantity, and no array without axes
         found = np.asarray(array)
         return found.flat[0] if found.ndim == 0 else found.view(Quantities)
+
+
+def _compared(compare: Callable[[Any, Any], Any], first: Any, second: Any) -> Any:
+    plain = (np.asarray(value, dtype=object) for value in (first, second))
+    found = np.frompyfunc(compare, 2, 1)(*plain)
+    return found.view(Quantities) if isinstance(found, np.ndarray) else found
+
+
+def chosen(condition: Any, first: Any, second: Any) -> Quantities:
+    """``numpy.where`` element by element.
+
+    Parameters
+    ----------
+    condition, first, second : array_like
+        The conditions, and what is chosen where they hold and where they do not.
+    """
+    plain = (np.asarray(value, dtype=object) for value in (condition, first, second))
+    found = np.frompyfunc(_chosen, 3, 1)(*plain)
+    return np.asarray(found, dtype=object).view(Quantities)
+
+
+def covariances(correlations: Numbers, u: Numbers) -> Numbers:
+    """A covariance matrix. What is known exactly has no correlation, and the covariance 0.
+
+    Parameters
+    ----------
+    correlations : ndarray
+        The correlation matrix.
+    u : ndarray
+        The standard uncertainties.
+    """
+    products = np.outer(u, u)
+    matrix: Numbers = np.where(products == 0, 0.0, correlations * products)
+    return matrix
 
 
 def _chosen(condition: Any, first: Any, second: Any) -> Any:
@@ -209,6 +271,8 @@ def array(
             raise TypeError("`values` are quantities, which have their uncertainties and units; give them alone")
         made = [_quantity(value, "`values`") for value in found.ravel()]
         return _shaped(made, found.shape)
+    if np.iscomplexobj(found):
+        raise TypeError("`values` are complex; gumption.complex_normal makes a complex quantity of each")
     estimates = np.asarray(found, dtype=float)
     count = estimates.size
     matrix = None
@@ -239,7 +303,10 @@ def array(
 
 
 def correlated(inputs: Sequence[Input], correlation: npt.ArrayLike) -> Quantities:
-    """Inputs with declared correlation coefficients, as new quantities.
+    """Inputs with declared correlation coefficients.
+
+    The objects that it returns are the same quantities as those that are given. Give the returned ones to
+    whatever the correlation is to have an effect on: an expression of the given ones alone does not have it.
 
     Parameters
     ----------
@@ -257,6 +324,8 @@ def correlated(inputs: Sequence[Input], correlation: npt.ArrayLike) -> Quantitie
     for value in inputs:
         if not isinstance(value, Input):
             raise TypeError(f"`inputs`: an input is needed, not a {type(value).__name__}")
+    if len({value.identity for value in inputs}) < len(inputs):
+        raise ValueError("`inputs`: one quantity is given twice, and is fully correlated with itself")
     return _shaped(_linked(inputs, _square(correlation, len(inputs), "correlation")), (len(inputs),))
 
 
@@ -322,12 +391,16 @@ def _linked(inputs: Sequence[Input], matrix: Numbers) -> list[Input]:
         raise ValueError("a matrix of correlations or covariances is symmetric")
     if (abs(matrix) > 1 + 1e-12).any():
         raise ValueError("a correlation coefficient is outside -1 to 1")
-    made = [Input(of.spec, of.unit, of.held, parts=of.parts, name=of.name) for of in inputs]
-    for row, of in enumerate(made):
-        for column, other in enumerate(made):
+    made = []
+    for row, of in enumerate(inputs):
+        links = dict(of.links)
+        for column, other in enumerate(inputs):
             r = float(np.clip(matrix[min(row, column), max(row, column)], -1.0, 1.0))
-            if row != column and r != 0.0:
-                of.links[other.identity] = r
+            if row == column or r == 0.0:
+                continue
+            if links.setdefault(other.identity, r) != r:
+                raise ValueError("two of the inputs have another correlation coefficient already")
+        made.append(Input(of.spec, of.unit, of.held, of.identity, of.parts, of.name, links))
     return made
 
 

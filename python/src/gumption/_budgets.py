@@ -16,6 +16,7 @@ from gumption._labels import KeyLabels, Labels, aligned, in_groups
 from gumption._measurement import Measurement
 from gumption._model import Model
 from gumption._quantities import is_pint, is_ufloat
+from gumption._quantity import Quantity
 from gumption._result import MonteCarlo
 from gumption._tables import Table
 
@@ -144,6 +145,12 @@ class _All(Mapping[str, OutputBudgets]):
         coverage_factor: Column
         sensitivities: dict[str, Column]
         contributions: dict[str, Column]
+        monte_carlo: MonteCarlo[Column] | None
+
+        def to_pandas(self) -> Any: ...
+        def to_polars(self) -> Any: ...
+        def to_arrow(self) -> Any: ...
+        def to_xarray(self) -> Any: ...
     else:
 
         def __getattr__(self, name: str) -> Any:
@@ -232,6 +239,8 @@ def budgets(
     Columns of ``pandas`` have one index, which the result keeps. ``DataArrays`` of ``xarray`` are
     broadcast by their named dimensions, and `OutputBudgets.to_xarray` has their coordinates.
     """
+    if isinstance(model, Quantity):
+        raise TypeError("`model`: an expression is given; `.model()` makes one of it")
     measurement = model if isinstance(model, Measurement) else None
     options = (coverage, k, real_dof or None, trials, seed, executor)
     columns = _by_name(model, inputs or {}, columns, options)
@@ -310,7 +319,7 @@ def _given(
         if isinstance(value, GroupedReadings):
             readings[name] = value
         else:
-            parts[name] = _parts(value, name)
+            parts[name] = _parts(value, name, units.get(name))
     flat = [(name, part.value) for name, own in parts.items() for part in own]
     labels: Labels | None
     if readings:
@@ -392,15 +401,26 @@ def _check(name: str, parts: tuple[Any, ...], is_condition: bool) -> None:
         raise _gumption.ModelError(f"`{name}` is a condition, which is known exactly")
 
 
-def _parts(value: Any, name: str) -> tuple[_Part, _Part, _Part]:
-    """Estimates, standard uncertainties and degrees of freedom."""
+def _parts(value: Any, name: str, unit: str | None) -> tuple[_Part, _Part, _Part]:
+    """Estimates, standard uncertainties and degrees of freedom of an input whose unit is given."""
+    if isinstance(value, Quantity):
+        raise TypeError(
+            f"`{name}` is a quantity: make a model with it, and give the columns of the other inputs, "
+            f"`m = f({name}=..., ...)` and `gumption.budgets(m, ...)`"
+        )
     if isinstance(value, tuple):
         if not 1 <= len(value) <= 3:
             raise TypeError(f"{name}: (x, u) or (x, u, dof) is needed")
         x, u, dof = (*value, 0.0, np.inf)[:3] if len(value) != 1 else (value[0], 0.0, np.inf)
         if len(value) == 2:
             dof = np.inf
-        return _Part(x, _unit(x)), _Part(u, _unit(u)), _Part(dof, None)
+        own = _unit(x)
+        if own not in (None, unit) and _unit(u) is None and np.any(np.asarray(u, dtype=float) != 0):
+            raise _gumption.ModelError(
+                f"`{name}`: the estimates are in {own}, and the standard uncertainties can be in {own} or in {unit}, "
+                "that of the model; give them a unit as well"
+            )
+        return _Part(x, own), _Part(u, _unit(u)), _Part(dof, None)
     unit = _unit(value)
     x, u = _with_uncertainty(value.magnitude if is_pint(value) else value)
     return _Part(x, unit), _Part(u, unit), _Part(np.inf, None)

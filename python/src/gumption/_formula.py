@@ -202,6 +202,12 @@ class Term:
     # functions of NumPy
 
     def __array_ufunc__(self, ufunc: Any, method: str, *inputs: Any, **options: Any) -> Any:
+        out = options.pop("out", None)
+        if out is not None:
+            # what an operator in place does to an array
+            found = self.__array_ufunc__(ufunc, method, *inputs, **options)
+            out[0][...] = found
+            return out[0]
         if method != "__call__" or any(value is not None for value in options.values()):
             self._foreign(f"no formula does numpy.{ufunc.__name__}.{method} with these options")
         if any(isinstance(value, np.ndarray) and value.ndim for value in inputs):
@@ -317,6 +323,11 @@ def literal(of: Term, value: Any) -> Term:
         return product if value.real == 0 else of._made("+", (real, product))
     if not math.isfinite(value):
         of._foreign(f"no formula has the number {value}")
+    if abs(value) == math.tau:
+        # by which formulas know a turn
+        turn = of._made("*", (literal(of, math.copysign(2.0, value)), literal(of, math.pi)))
+        turn.literal = value
+        return turn
     if abs(value) == math.pi:
         text = "pi"
     elif value == int(value) and abs(value) < 1e15:

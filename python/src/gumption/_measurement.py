@@ -21,7 +21,7 @@ from gumption._check import checked
 from gumption._conditions import condition_file
 from gumption._joint import identity_of
 from gumption._labels import Labels
-from gumption._model import Model, take_inputs, written
+from gumption._model import Model, joined, take_inputs, written
 from gumption._quantities import as_alone, as_known, unit_of
 from gumption._shapes import Input
 from gumption._trace import NotTraceable, Traced, decision_formulas, equations
@@ -416,6 +416,7 @@ class Measurement:
                     f"{self.inputs[name]}, and has no unit of its own; give it one"
                 )
             aliases[name] = twin
+            known[twin] = joined(known[twin], found)
             del known[name]
         return aliases
 

@@ -18,6 +18,7 @@ from gumption._joint import Joint, identity_of, listed
 from gumption._quantity import Expression, formulas
 from gumption._quantities import as_input, as_known, shared, unit_of
 from gumption._result import Figure_co, Result
+from gumption._shapes import Input
 
 if TYPE_CHECKING:
     from gumption._block import BlockFunction
@@ -473,6 +474,7 @@ def take_inputs(
         twin = first.setdefault(identity_of(value), name)
         if twin == name:
             continue
+        known[twin] = joined(known[twin], value)
         # one object for two inputs is one quantity
         if unit_of(value) is None and units.get(twin) != units.get(name):
             raise _gumption.ModelError(
@@ -494,6 +496,11 @@ def take_inputs(
         once = {(*sorted(link[:2]), link[2]): list(link) for link in links}
         file["correlations"] = list(once.values())
     return held, known
+
+
+def joined(first: Any, second: Any) -> Any:
+    """One quantity that is given by two objects."""
+    return first.linked_as(second) if isinstance(first, Input) and isinstance(second, Input) else first
 
 
 def _insert_expressions(

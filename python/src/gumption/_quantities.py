@@ -12,6 +12,7 @@ from typing import Any
 
 import numpy as np
 
+from gumption import _gumption
 from gumption._quantity import Expression, Quantity
 from gumption._shapes import Input, plain
 
@@ -174,6 +175,11 @@ def as_input(value: Any, name: str = "the input") -> Input:
     if isinstance(value, tuple) and len(value) in (2, 3):
         for part in value:
             _refuse_columns(part, name)
+        if is_pint(value[0]):
+            if not is_pint(value[1]):
+                raise TypeError(f"`{name}`: the estimate has a unit and the standard uncertainty has none; give it one")
+            x, u = value[0], value[1].to(value[0].units)
+            return Input(_normal(x.magnitude, u.magnitude, *value[2:]).spec, pint_unit(x))
         return _normal(*value)
     _refuse_columns(value, name)
     raise TypeError(
@@ -203,6 +209,8 @@ def is_linked(value: Any) -> bool:
 def as_known(value: Any, name: str) -> Any:
     """A value that tracks its correlations: an `Input`, an output of a result, an expression, or a number of
     ``uncertainties`` or ``GTC``."""
+    if isinstance(value, Quantity) and value._is_complex or is_gtc(value) and isinstance(value.x, complex):
+        raise TypeError(f"`{name}` is complex, and an argument is a real quantity; give its parts, `.real` and `.imag`")
     if isinstance(value, Expression) or hasattr(value, "_as_input") or is_linked(value):
         return value
     return as_input(value, name)
@@ -234,10 +242,18 @@ def shared(values: Mapping[str, Any]) -> list[tuple[str, str, float]]:
     """Correlation coefficients of numbers that depend on the same variables, and of linked inputs."""
     found: list[tuple[str, str, float]] = []
     inputs = {value.identity: name for name, value in values.items() if isinstance(value, Input)}
+    declared: dict[tuple[str, str], float] = {}
     for name, value in values.items():
-        if isinstance(value, Input):
-            others = ((inputs.get(other), r) for other, r in value.links.items())
-            found += [(name, other, r) for other, r in others if other is not None and name < other]
+        for other, r in value.links.items() if isinstance(value, Input) else ():
+            if other not in inputs:
+                continue
+            first, second = sorted((name, inputs[other]))
+            if declared.setdefault((first, second), r) != r:
+                raise _gumption.ModelError(
+                    f"two correlation coefficients are declared of `{first}` and `{second}`, "
+                    f"{declared[first, second]:g} and {r:g}"
+                )
+    found += [(*pair, r) for pair, r in declared.items()]
     named = [(name, _inner(value)) for name, value in values.items()]
     floats = [(name, value) for name, value in named if is_ufloat(value) and value.std_dev > 0]
     if len(floats) > 1:

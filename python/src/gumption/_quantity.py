@@ -11,7 +11,7 @@ import itertools
 import math
 from collections.abc import Callable, Iterable, Iterator, Mapping
 from functools import lru_cache
-from typing import TYPE_CHECKING, Any, NamedTuple, NoReturn
+from typing import TYPE_CHECKING, Any, NamedTuple, NoReturn, Union
 
 import numpy as np
 import numpy.typing as npt
@@ -127,6 +127,13 @@ class Quantity(Term):
 
         return found.view(Quantities)
 
+    def __array_function__(self, function: Any, types: Any, arguments: Any, options: Any) -> Any:
+        if function is np.where and len(arguments) == 3 and any(isinstance(value, (list, tuple, np.ndarray)) for value in arguments):
+            from gumption._arrays import chosen
+
+            return chosen(*arguments)
+        return super().__array_function__(function, types, arguments, options)
+
     @property
     def angle(self) -> float | None:
         return 1.0 if _is_angle(self._unit) else None
@@ -157,17 +164,20 @@ class Quantity(Term):
 
         return _free("y", {leaf.symbol for leaf in self._leaves() if not is_output(leaf)})
 
-    def run(self, *arguments: Any, name: str | None = None, **options: Any) -> Result:
+    def run(
+        self, trials: int | float | str | None = None, seed: int | None = None, *, name: str | None = None, **options: Any
+    ) -> Result:
         """Evaluate by the law of propagation and by Monte Carlo, as `Model.run` does.
 
         Parameters
         ----------
-        *arguments, **options
+        trials, seed, **options
             As of `Model.run`.
         name : str, optional
             The name of the output; ``y``, or ``y_2`` where an input is called ``y``.
         """
-        return self.model(name).run(*arguments, **options)
+        model = model_of({name or self._own_name(): self}, trials=0 if trials == 0 else None)
+        return model.run(trials, seed, **options)
 
     def _evaluated(self) -> Output:
         return next(iter(self.run(trials=0).values()))
@@ -177,7 +187,7 @@ class Quantity(Term):
 
     def _parts(self) -> tuple[Result, Output, Output]:
         """The real and imaginary parts of a complex quantity, evaluated together."""
-        result = model_of({"re": self.real, "im": self.imag}).run(trials=0)
+        result = model_of({"re": self.real, "im": self.imag}, trials=0).run()
         return result, result["re"], result["im"]
 
     @property
@@ -204,9 +214,10 @@ class Quantity(Term):
         if not self._is_complex:
             return np.array([[self.u**2]])
         result, re, im = self._parts()
+        from gumption._arrays import covariances
+
         u = np.array([re.gum.standard_uncertainty, im.gum.standard_uncertainty], dtype=float)
-        matrix: npt.NDArray[np.float64] = result.correlations() * np.outer(u, u)
-        return matrix
+        return covariances(result.correlations(), u)
 
     @property
     def dof(self) -> float:
@@ -255,7 +266,8 @@ class Quantity(Term):
             raise _gumption.ModelError(f"a quantity in {own} is none in {unit}")
         if _has_zero(own) != _has_zero(unit):
             raise _gumption.ModelError(
-                f"a quantity in {own} can be in {unit} a value from its zero or a difference; give the inputs in {unit}"
+                f"a quantity in {own} can be in {unit} a value from its zero or a difference: `gumption.kelvin(t)` and "
+                f"`gumption.celsius(T)` convert temperatures, and a difference comes of `t1 - t2`"
             )
         return Expression("", (self,), unit)
 
@@ -403,7 +415,45 @@ class Expression(Quantity):
         return _notebook.whole([value, *([_notebook.inputs(known)] if known else [])])
 
     def __reduce__(self) -> Any:
-        return type(self), (self.symbol, self.operands, self.unit, self.literal)
+        return _rebuilt, (_flat(self),)
+
+
+#: A term of an expression: a quantity, or an operation on terms before it.
+_Flat = Union[Quantity, tuple[type[Expression], str, tuple[int, ...], str, "complex | None"]]
+
+
+def _flat(expression: Expression) -> list[_Flat]:
+    """The terms of an expression in their order, which is no deeper for a long one."""
+    reached: dict[int, Quantity] = {}
+    left: list[Term] = [expression]
+    while left:
+        one = left.pop()
+        if one.number not in reached:
+            assert isinstance(one, Quantity)
+            reached[one.number] = one
+            left.extend(one.operands)
+    order = sorted(reached)
+    place = {number: index for index, number in enumerate(order)}
+    found: list[_Flat] = []
+    for number in order:
+        one = reached[number]
+        if isinstance(one, Expression):
+            operands = tuple(place[operand.number] for operand in one.operands)
+            found.append((type(one), one.symbol, operands, one.unit, one.literal))
+        else:
+            found.append(one)
+    return found
+
+
+def _rebuilt(terms: list[_Flat]) -> Quantity:
+    made: list[Quantity] = []
+    for term in terms:
+        if isinstance(term, Quantity):
+            made.append(term)
+        else:
+            kind, symbol, operands, unit, literal = term
+            made.append(kind(symbol, tuple(made[place] for place in operands), unit, literal))
+    return made[-1]
 
 
 class Comparison(Expression):
@@ -426,9 +476,26 @@ class Comparison(Expression):
             Seed of the random streams.
         """
         found = next(iter(self.run(trials=trials, seed=seed).values()))
-        return float(found.monte_carlo.estimate)
+        # the share of the trials, which is one however rare it is
+        return float(np.mean(found.samples()))
+
+    def __and__(self, other: Any) -> Comparison:
+        return self._with("*", other)
+
+    def __or__(self, other: Any) -> Comparison:
+        return self._with("max", other)
+
+    def __invert__(self) -> Comparison:
+        return Comparison("-", (self._written("1", 1.0), self), "1")
+
+    def _with(self, symbol: str, other: Any) -> Comparison:
+        if not isinstance(other, Comparison):
+            raise TypeError(f"a comparison is combined with another one, not with a {type(other).__name__}")
+        return Comparison(symbol, (self, other), "1")
 
     def __bool__(self) -> bool:
+        if self.symbol not in _COMPARED:
+            raise TypeError(f"`{self._shown()}` is neither true nor false; it has a `.probability()`")
         first, second = self.operands
         assert isinstance(first, Quantity) and isinstance(second, Quantity)
         difference = first - second
@@ -471,11 +538,13 @@ def _shorthand(estimate: float, u: float) -> str:
     if not (u > 0 and math.isfinite(u) and math.isfinite(estimate)):
         return f"{estimate:.7g}"
     y, digits = _gumption.printed(estimate, u)
-    if "e" in y or "e" in digits:
+    if "e" in y:
         return f"({y} +/- {digits})"
-    # with a point in it the uncertainty is written as it is
-    whole = digits.replace(".", "").lstrip("0")
-    return f"{y}({digits if u >= 1 else whole})"
+    if u >= 1:
+        # with a point in it the uncertainty is written as it is
+        return f"{y}({digits})"
+    decimals = len(y.partition(".")[2])
+    return f"{y}({u * 10**decimals:.0f})"
 
 
 def _unit_of(symbol: str, operands: list[Quantity]) -> str:
@@ -546,6 +615,13 @@ def _check_number(symbol: str, unit: str) -> None:
 
 
 def _check_same(symbol: str, operands: Iterable[Quantity], units: list[str]) -> None:
+    angle = next((unit for unit in units if _is_angle(unit) and unit != "rad" and _fit(unit, "1")), None)
+    for operand in operands:
+        if angle is not None and operand.literal:
+            raise _gumption.ModelError(
+                f"the number {operand.literal:g} beside an angle in {angle} can be in {angle} or in rad; "
+                f"`gumption.constant({operand.literal:g}, \"{angle}\")` says which"
+            )
     for operand, unit in zip(operands, units):
         if not _fit(units[0], unit):
             number = next((of for of in operands if of.literal is not None), None)
@@ -562,15 +638,20 @@ def _named(
 ) -> tuple[dict[object, str], dict[str, Quantity]]:
     """Names of the inputs and outputs in quantities by their identities, and these by their names."""
     from gumption._joint import identity_of
+    from gumption._model import joined
 
     names: dict[object, str] = {}
     leaves: dict[str, Quantity] = {}
     for quantity in quantities:
         for leaf in quantity._leaves():
             identity = identity_of(leaf)
-            if leaf._as_text is None and identity not in names:
+            if leaf._as_text is not None:
+                continue
+            if identity not in names:
                 names[identity] = name = _free(leaf.symbol, used)
                 leaves[name] = leaf
+            else:
+                leaves[names[identity]] = joined(leaves[names[identity]], leaf)
     return names, leaves
 
 
@@ -615,7 +696,45 @@ def formulas(
     return {**writer.equations, **own}, leaves
 
 
-def model_of(quantities: Mapping[str, Any], *, title: str | None = None) -> Model:
+def kelvin(t: Quantity) -> Expression:
+    """The thermodynamic temperature of a Celsius temperature.
+
+    Parameters
+    ----------
+    t : Quantity
+        A temperature in degC or degF.
+
+    Returns
+    -------
+    Expression
+        In K.
+    """
+    if not isinstance(t, Quantity) or not _has_zero(t._unit) or not _fit(t._unit, "K"):
+        raise TypeError("`t`: a quantity in degC or degF is needed")
+    return Expression("kelvin", (t,), "K")
+
+
+def celsius(T: Quantity) -> Expression:  # noqa: N803 - the symbol of a thermodynamic temperature
+    """The Celsius temperature of a thermodynamic one.
+
+    Parameters
+    ----------
+    T : Quantity
+        A temperature in K.
+
+    Returns
+    -------
+    Expression
+        In degC.
+    """
+    if not isinstance(T, Quantity) or _has_zero(T._unit) or not _fit(T._unit, "K"):
+        raise TypeError("`T`: a quantity in K is needed")
+    return Expression("celsius", (T,), "degC")
+
+
+def model_of(
+    quantities: Mapping[str, Any], *, title: str | None = None, trials: int | str | None = None
+) -> Model:
     """One model of several quantities, so that they are evaluated together.
 
     Parameters
@@ -624,6 +743,8 @@ def model_of(quantities: Mapping[str, Any], *, title: str | None = None) -> Mode
         The outputs by name.
     title : str, optional
         The title of its pages.
+    trials : int or "adaptive", optional
+        The number of trials, as in a model file; 0 for only the law of propagation.
 
     Returns
     -------
@@ -638,6 +759,8 @@ def model_of(quantities: Mapping[str, Any], *, title: str | None = None) -> Mode
     """
     from gumption._model import Model, take_inputs, written
 
+    if not isinstance(quantities, Mapping):
+        raise TypeError("`quantities`: a mapping of names to quantities is needed, `{\"y\": y}`")
     if not quantities:
         raise ValueError("`quantities` names no output")
     for name, quantity in quantities.items():
@@ -652,6 +775,8 @@ def model_of(quantities: Mapping[str, Any], *, title: str | None = None) -> Mode
     file: dict[str, Any] = {
         "format": 1, "title": title, "inputs": dict.fromkeys(leaves), "equations": equations, "outputs": outputs,
     }  # fmt: skip
+    if trials is not None:
+        file["monte_carlo"] = {"trials": trials}
     held, known = take_inputs(file, leaves, dict.fromkeys(leaves, "1"), {}, leaves)
     rust = _gumption.Model("<expression>", written(file), "", list(held.items()))
     return Model._of(rust, known=known)

@@ -17,6 +17,8 @@ import math
 import os
 import uuid
 from collections.abc import Iterable, Mapping
+from decimal import Decimal
+from fractions import Fraction
 from functools import lru_cache
 from typing import TYPE_CHECKING, Any, Literal, TypedDict, Union
 
@@ -113,11 +115,25 @@ class Input(Quantity):
     ) -> None:
         super().__init__(name)
         self.spec: dict[str, Any] = dict(spec)
+        _check_finite(self.spec)
         self.unit = unit
         self.held: tuple[tuple[str, bytes], ...] = tuple(held)
         self.identity = identity if identity is not None else uuid.uuid4().hex
         self.parts: tuple[str, ...] = tuple(parts)
         self.links: dict[str, float] = dict(links or {})
+
+    def linked_as(self, other: Input) -> Input:
+        """The same quantity with the correlations that are declared of another object that it is.
+
+        Parameters
+        ----------
+        other : Input
+            The other object.
+        """
+        if other.links.items() <= self.links.items():
+            return self
+        links = {**self.links, **other.links}
+        return Input(self.spec, self.unit, self.held, self.identity, self.parts, self.name, links)
 
     @property
     def name(self) -> str:
@@ -154,14 +170,16 @@ class Input(Quantity):
         from gumption import _notebook
 
         spec = {key: value for key, value in self.spec.items() if key != "components"}
-        lines = [*spec.items(), *([("unit", self.unit)] if self.unit is not None else [])]
+        lines = [*([("name", self.name)] if self.name else []), *spec.items()]
+        lines += [("unit", self.unit)] if self.unit is not None else []
         shown = [_notebook.table(["input", ""], [(key, _notebook.stated(value)) for key, value in lines])]
         if parts := self.spec.get("components"):
             shown.append(_notebook.inputs({part["name"]: part for part in parts}))
         return _notebook.whole(shown)
 
     def __repr__(self) -> str:
-        return f"gumption.Input({self.spec!r}, unit={self.unit!r})"
+        name = f", name={self.name!r}" if self.name else ""
+        return f"gumption.Input({self.spec!r}, unit={self.unit!r}{name})"
 
     def __reduce__(self) -> tuple[Any, ...]:
         own = (self.spec, self.unit, self.held, self.identity, self.parts, self.symbol, self.links)
@@ -169,9 +187,11 @@ class Input(Quantity):
 
 
 def plain(value: Any) -> Any:
-    """Numbers of NumPy as Python numbers; other values unchanged."""
+    """Numbers of NumPy and exact fractions as Python numbers; other values unchanged."""
     if isinstance(value, np.generic):
         return value.item()
+    if isinstance(value, (Decimal, Fraction)):
+        return float(value)
     if isinstance(value, np.ndarray):
         return value.tolist()
     if isinstance(value, Mapping):
@@ -179,6 +199,20 @@ def plain(value: Any) -> Any:
     if isinstance(value, (list, tuple)):
         return [plain(inner) for inner in value]
     return value
+
+
+def _check_finite(spec: Mapping[str, Any]) -> None:
+    """Whether the numbers of an input are finite."""
+    for key, value in spec.items():
+        several = value if isinstance(value, list) else [value]
+        for place, one in enumerate(several):
+            if isinstance(one, float) and not math.isfinite(one):
+                which = f"value {place} (from 0) of `{key}`" if several is value else f"`{key}`"
+                raise _gumption.ModelError(f"{which} is {one}, but a finite number is needed")
+
+
+#: Keys whose values are lists.
+_LISTS = {"values", "limits", "evidence", "components"}
 
 
 def _shape(
@@ -197,8 +231,10 @@ def _shape(
         found = plain(value)
         if key == "dof" and found == math.inf:
             continue
-        if isinstance(found, float) and not math.isfinite(found):
-            raise _gumption.ModelError(f"`{key}` is {found}, but a finite number is needed")
+        if isinstance(found, complex):
+            raise TypeError(f"`{key}` is complex; gumption.complex_normal makes a complex quantity")
+        if isinstance(found, list) and key not in _LISTS:
+            raise TypeError(f"`{key}`: one value is needed; gumption.array makes an array of quantities")
         if found is not None:
             spec[key] = found
     return Input(spec, unit, name=name)
