@@ -146,18 +146,35 @@ class _All(Mapping[str, OutputBudgets]):
         sensitivities: dict[str, Column]
         contributions: dict[str, Column]
         monte_carlo: MonteCarlo[Column] | None
-
-        def to_pandas(self) -> Any: ...
-        def to_polars(self) -> Any: ...
-        def to_arrow(self) -> Any: ...
-        def to_xarray(self) -> Any: ...
     else:
 
         def __getattr__(self, name: str) -> Any:
             # of a model of one output the columns are at hand at once
-            if not name.startswith("_") and len(self._outputs) == 1:
-                return getattr(next(iter(self._outputs.values())), name)
-            raise AttributeError(name)
+            if name.startswith("_"):
+                raise AttributeError(name)
+            return getattr(self._only(), name)
+
+    def _only(self) -> OutputBudgets:
+        """The budgets of the only output."""
+        if len(self._outputs) != 1:
+            raise AttributeError(f"there are several outputs, each with a table: {', '.join(self._outputs)}")
+        return next(iter(self._outputs.values()))
+
+    def to_pandas(self) -> Any:
+        """The table of the only output, as `OutputBudgets.to_pandas`."""
+        return self._only().to_pandas()
+
+    def to_polars(self) -> Any:
+        """The table of the only output, as `OutputBudgets.to_polars`."""
+        return self._only().to_polars()
+
+    def to_arrow(self) -> Any:
+        """The table of the only output, as `OutputBudgets.to_arrow`."""
+        return self._only().to_arrow()
+
+    def to_xarray(self) -> Any:
+        """The table of the only output, as `OutputBudgets.to_xarray`."""
+        return self._only().to_xarray()
 
     def __iter__(self) -> Iterator[str]:
         return iter(self._outputs)

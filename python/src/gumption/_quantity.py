@@ -40,24 +40,21 @@ _OF_ONE_DIMENSION = {"min", "max", "hypot", "mod"}
 _PARTS = {"abs", "arg", "re", "im"}
 
 
-@lru_cache(maxsize=4096)
-def _fit(first: str, second: str) -> bool:
-    return _gumption.units_fit(first, second)
+_fit = lru_cache(maxsize=4096)(_gumption.units_fit)
+_within = lru_cache(maxsize=4096)(_gumption.unit_within)
+_product_of = lru_cache(maxsize=4096)(lambda parts: _gumption.unit_product(list(parts)))
 
 
-@lru_cache(maxsize=4096)
 def _has_zero(unit: str) -> bool:
-    return _gumption.unit_within(unit)[1]
+    return bool(_within(unit)[1])
 
 
-@lru_cache(maxsize=4096)
 def _is_angle(unit: str) -> bool:
-    return _gumption.unit_within(unit)[2]
+    return bool(_within(unit)[2])
 
 
-@lru_cache(maxsize=4096)
 def _product(*parts: tuple[str, int, int]) -> str:
-    return _gumption.unit_product(list(parts))
+    return str(_product_of(parts))
 
 
 class ComplexUncertainty(NamedTuple):

@@ -19,7 +19,6 @@ import uuid
 from collections.abc import Iterable, Mapping
 from decimal import Decimal
 from fractions import Fraction
-from functools import lru_cache
 from typing import TYPE_CHECKING, Any, Literal, TypedDict, Union
 
 import numpy as np
@@ -240,15 +239,21 @@ def _shape(
     return Input(spec, unit, name=name)
 
 
-@lru_cache(maxsize=4096)
+#: Names that formulas can have.
+_NAMES: set[str] = set()
+
+
 def _check_name(name: str) -> None:
     """Whether formulas can have a name, by the engine's own word."""
+    if name in _NAMES:
+        return
     exact = {"distribution": "constant", "value": 1}
     probe = {"format": 1, "inputs": {name: exact}, "equations": {f"{name}_": "1"}, "outputs": {f"{name}_": {"unit": "1"}}}
     try:
         _gumption.Model("<name>", json.dumps(probe))
     except _gumption.ModelError as error:
         raise _gumption.ModelError(f"`name`: {error.errors[0]['message']}") from None
+    _NAMES.add(name)
 
 
 def _check_keys(distribution: str | None, keys: Iterable[str], own: Iterable[str] = ()) -> None:
