@@ -159,7 +159,7 @@ class Quantity(Term):
     def _own_name(self) -> str:
         from gumption._joint import is_output
 
-        return _free("y", {leaf.symbol for leaf in self._leaves() if not is_output(leaf)})
+        return _free("y", {leaf.symbol for leaf in self._leaves() if not is_output(leaf)}, {})
 
     def run(
         self, trials: int | float | str | None = None, seed: int | None = None, *, name: str | None = None, **options: Any
@@ -639,25 +639,29 @@ def _named(
 
     names: dict[object, str] = {}
     leaves: dict[str, Quantity] = {}
+    numbers: dict[str, Iterator[int]] = {}
     for quantity in quantities:
         for leaf in quantity._leaves():
             identity = identity_of(leaf)
             if leaf._as_text is not None:
                 continue
             if identity not in names:
-                names[identity] = name = _free(leaf.symbol, used)
+                names[identity] = name = _free(leaf.symbol, used, numbers)
                 leaves[name] = leaf
             else:
                 leaves[names[identity]] = joined(leaves[names[identity]], leaf)
     return names, leaves
 
 
-def _free(wanted: str, used: set[str]) -> str:
-    """A name that nothing has: the one that is wanted, or a number behind it; `i` is the imaginary unit."""
-    numbers = itertools.count(2 if wanted else 1)
+def _free(wanted: str, used: set[str], numbers: dict[str, Iterator[int]]) -> str:
+    """A name that nothing has: the one that is wanted, or a number behind it; `i` is the imaginary unit.
+
+    `numbers` has the next number behind each name, so that many inputs of one name do not count anew.
+    """
+    own = numbers.setdefault(wanted, itertools.count(2 if wanted else 1))
     name = wanted
     while name in ("", "i") or name in used:
-        name = f"{wanted}_{next(numbers)}" if wanted else f"x{next(numbers)}"
+        name = f"{wanted}_{next(own)}" if wanted else f"x{next(own)}"
     used.add(name)
     return name
 
