@@ -893,7 +893,8 @@ const words = async lang => (await import(`data:text/javascript,${encodeURICompo
 for (const [how, lang, width, height] of [["by mouse", "en", 1400, 1000], ["by keyboard", "en", 1400, 1000], ["on a phone, in German", "de", 390, 844]]) {
   await test(`a first user, ${how}`, async (page, folder) => {
     const w = await words(lang);
-    const press = how === "by keyboard" ? async of => { await of.focus(); await page.keyboard.press("Enter"); } : of => of.click();
+    // nobody reaches a button that is not shown
+    const press = how === "by keyboard" ? async of => { await of.waitFor(); await of.focus(); await page.keyboard.press("Enter"); } : of => of.click();
     const choose = how === "by keyboard" ? async (of, label) => { await of.focus(); await of.selectOption({ label }); } : (of, label) => of.selectOption({ label });
     const type = async (of, typed) => { await of.focus(); await page.keyboard.type(typed); };
     const input = (key, name) => field(page, w.of(w.key[key], name));

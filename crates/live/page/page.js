@@ -289,8 +289,10 @@ class Page {
       model.hidden = !found.model;
       model.replaceChildren(...(found.model ? [`${this.words.model_is} ${found.model}`, ...(found.statement || []).map(([name, formula]) => make("code", {}, `${name} = ${formula}`))] : []));
     }
-    if (isCurrent) for (const form of this.shownForms) form.show(found, force);
-    this.element("certify").hidden = !isModel || (found.results || []).length === 0;
+    if (isCurrent) {
+      for (const form of this.shownForms) form.show(found, force);
+      this.element("certify").hidden = !isModel || (found.results || []).length === 0;
+    }
     this.mistakes.show(found, request);
     if (isModel) this.result.results(found);
     else this.result.report(found, request);
