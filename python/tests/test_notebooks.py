@@ -14,12 +14,13 @@ NOTEBOOKS = sorted((ROOT / "examples/notebooks").glob("*.ipynb"))
 
 
 def texts(cells: list[Any]) -> list[str]:
-    """What cells of code print and show as text."""
+    """What each cell with an output prints and shows as text; a kernel may print it in several parts."""
     found = []
     for cell in cells:
-        for output in cell.get("outputs", ()):
-            shown = output.get("text", output.get("data", {}).get("text/plain", ""))
-            found.append("".join(shown))
+        outputs = cell.get("outputs", ())
+        shown = [of.get("text", of.get("data", {}).get("text/plain", "")) for of in outputs]
+        if outputs:
+            found.append("".join("".join(text) for text in shown))
     return found
 
 
