@@ -94,22 +94,19 @@ def spread(kind: str, width: float) -> float:
 # each function prepares a task and gives it: estimate and standard uncertainty of one evaluation
 
 
-def with_gumption(workload: str, trials: int) -> Task:
+def expression(workload: str) -> Any:
     inputs, function = WORKLOADS[workload]
     shapes = {"normal": gu.normal, "uniform": gu.rectangular}
+    return function(np, *(shapes[kind](x, w) for _, kind, x, w in inputs))
 
-    def task() -> tuple[float, float]:
-        y = function(np, *(shapes[kind](x, w) for _, kind, x, w in inputs))
-        return figures_of(y.run(trials=trials), trials)
 
-    return task
+def with_gumption(workload: str, trials: int) -> Task:
+    return lambda: figures_of(expression(workload).run(trials=trials), trials)
 
 
 def with_a_model(workload: str, trials: int) -> Task:
     """The same with a model that was made before."""
-    inputs, function = WORKLOADS[workload]
-    shapes = {"normal": gu.normal, "uniform": gu.rectangular}
-    model = function(np, *(shapes[kind](x, w) for _, kind, x, w in inputs)).model()
+    model = expression(workload).model()
     return lambda: figures_of(model.run(trials=trials), trials)
 
 

@@ -7,8 +7,11 @@ import shutil
 import subprocess
 import sys
 from pathlib import Path
+from typing import Any
 
 import pytest
+
+import gumption as gu
 
 ROOT = Path(__file__).parents[2]
 MODELS = ROOT / "models"
@@ -30,3 +33,18 @@ def program() -> str:
 def run(program: str, *arguments: object, cwd: Path | None = None) -> subprocess.CompletedProcess[bytes]:
     """Runs the command line."""
     return subprocess.run([program, *map(str, arguments)], capture_output=True, cwd=cwd, check=False)
+
+
+def check_errors_of_workers(executor: Any) -> None:
+    """That a run at an executor has the errors of a run here."""
+    model = gu.from_dict({
+        "inputs": {"x": {"distribution": "normal", "mean": 0, "std": 1}},
+        "equations": {"y": "sqrt(x)"},
+        "outputs": {"y": {}},
+    })
+    with pytest.raises(gu.ModelError) as here:
+        model.run(trials=20_000)
+    with pytest.raises(gu.ModelError) as there:
+        model.run(trials=20_000, executor=executor)
+    assert str(there.value) == str(here.value)
+    assert there.value.errors == here.value.errors

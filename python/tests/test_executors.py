@@ -19,7 +19,7 @@ from pathlib import Path
 from typing import Any
 
 import pytest
-from conftest import MODELS, run
+from conftest import MODELS, check_errors_of_workers, run
 
 import gumption as gu
 from gumption import _executors
@@ -282,17 +282,7 @@ def test_what_cannot_be_shared(pool: ProcessPoolExecutor) -> None:
 
 
 def test_errors_of_workers_are_those_of_the_model(pool: ProcessPoolExecutor) -> None:
-    model = gu.from_dict({
-        "inputs": {"x": {"distribution": "normal", "mean": 0, "std": 1}},
-        "equations": {"y": "sqrt(x)"},
-        "outputs": {"y": {}},
-    })
-    with pytest.raises(gu.ModelError) as here:
-        model.run(trials=20_000)
-    with pytest.raises(gu.ModelError) as there:
-        model.run(trials=20_000, executor=pool)
-    assert str(there.value) == str(here.value)
-    assert there.value.errors == here.value.errors
+    check_errors_of_workers(pool)
 
 
 CASE = MODELS / "gap" / "sampling_rate" / "case.json"

@@ -164,7 +164,10 @@ class TestIdentity:
 
     def test_few_paired_readings(self) -> None:
         first, second = [1, 2, 3, 4.5], [2, 2.5, 3.5, 4]
-        total = gu.readings(first, paired=True) + gu.readings(second, paired=True)
+        both = gu.array([gu.readings(first, paired=True), gu.readings(second, paired=True)])
+        close(both.covariance, np.cov(first, second) / 4)
+        close(both.u, np.sqrt(np.diag(np.cov(first, second)) / 4))
+        total = both.sum()
         # s/sqrt(n) of the sums (JCGM 100, 5.2.3); with trials five readings at least are needed
         close(total.u, np.std(np.add(first, second), ddof=1) / 2)
         close(total.run(trials=0).y.u, total.u)

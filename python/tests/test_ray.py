@@ -8,6 +8,7 @@ from collections.abc import Iterator
 from typing import Any
 
 import pytest
+from conftest import check_errors_of_workers
 from test_executors import LONG, PLANE, of_the_command_line
 
 import gumption as gu
@@ -62,14 +63,4 @@ def test_work_that_ends_every_worker(monkeypatch: pytest.MonkeyPatch) -> None:
 
 
 def test_errors_of_workers_are_those_of_the_model() -> None:
-    model = gu.from_dict({
-        "inputs": {"x": {"distribution": "normal", "mean": 0, "std": 1}},
-        "equations": {"y": "sqrt(x)"},
-        "outputs": {"y": {}},
-    })
-    with pytest.raises(gu.ModelError) as here:
-        model.run(trials=20_000)
-    with pytest.raises(gu.ModelError) as there:
-        model.run(trials=20_000, executor=ray)
-    assert str(there.value) == str(here.value)
-    assert there.value.errors == here.value.errors
+    check_errors_of_workers(ray)

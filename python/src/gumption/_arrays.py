@@ -12,7 +12,7 @@ import numpy.typing as npt
 from gumption import _notebook
 from gumption._formula import call
 from gumption._quantities import as_input
-from gumption._quantity import Quantity, model_of
+from gumption._quantity import Quantity, covariance_of, evaluated, model_of
 from gumption._shapes import Input
 
 if TYPE_CHECKING:
@@ -36,22 +36,22 @@ class Quantities(np.ndarray[Any, np.dtype[Any]]):
     @property
     def estimate(self) -> Any:
         """The estimates."""
-        return self._each("estimate")
+        return self._each("estimate")[0]
 
     @property
     def u(self) -> Any:
         """The standard uncertainties."""
-        return self._each("u")
+        return self._each("standard_uncertainty")[0]
 
     @property
     def U(self) -> Any:  # noqa: N802 - the symbol of the GUM
         """The expanded uncertainties for 95.45 %, as `Quantity.U`."""
-        return self._each("U")
+        return self._each("expanded_uncertainty")[0]
 
     @property
     def dof(self) -> Any:
         """The effective degrees of freedom."""
-        return self._each("dof")
+        return self._each("dof")[0]
 
     @property
     def unit(self) -> Any:
@@ -64,14 +64,12 @@ class Quantities(np.ndarray[Any, np.dtype[Any]]):
     @property
     def correlation(self) -> Numbers:
         """The correlation matrix of the quantities in the order of ``ravel()``, by the law of propagation."""
-        return self.run(trials=0).correlations()
+        return evaluated(self._outputs(None), trials=0).correlations()
 
     @property
     def covariance(self) -> Numbers:
         """The covariance matrix of the quantities in the order of ``ravel()``, by the law of propagation."""
-        result = self.run(trials=0)
-        u = np.array([of.gum.standard_uncertainty for of in result.values()], dtype=float)
-        return covariances(result.correlations(), u)
+        return covariance_of(evaluated(self._outputs(None), trials=0))
 
     def model(self, names: Sequence[str] | None = None, *, title: str | None = None) -> Model:
         """One model of all quantities.
@@ -83,6 +81,32 @@ class Quantities(np.ndarray[Any, np.dtype[Any]]):
         title : str, optional
             The title of its pages.
         """
+        return model_of(self._outputs(names), title=title)
+
+    def run(
+        self,
+        trials: int | float | str | None = None,
+        seed: int | None = None,
+        *,
+        names: Sequence[str] | None = None,
+        **options: Any,
+    ) -> Result:
+        """Evaluate all quantities together, as `Model.run` does.
+
+        Parameters
+        ----------
+        trials, seed, **options
+            As of `Model.run`.
+        names : sequence of str, optional
+            The names of the outputs, as of `model`.
+        """
+        return evaluated(self._outputs(names), trials, seed, **options)
+
+    def _quantities(self) -> list[Quantity]:
+        return [_quantity(of, "an entry") for of in np.asarray(self, dtype=object).ravel()]
+
+    def _outputs(self, names: Sequence[str] | None) -> dict[str, Quantity]:
+        """The quantities by the names of outputs."""
         quantities = self._quantities()
         if names is None:
             names = [f"y{place}" for place in range(1, len(quantities) + 1)]
@@ -90,35 +114,18 @@ class Quantities(np.ndarray[Any, np.dtype[Any]]):
             raise ValueError(f"`names`: {len(names)} are given for {len(quantities)} quantities")
         if len(set(names)) != len(names):
             raise ValueError("`names`: one name is given twice")
-        return model_of(dict(zip(names, quantities)), title=title)
+        return dict(zip(names, quantities))
 
-    def run(self, *arguments: Any, names: Sequence[str] | None = None, **options: Any) -> Result:
-        """Evaluate all quantities together, as `Model.run` does.
-
-        Parameters
-        ----------
-        *arguments, **options
-            As of `Model.run`.
-        names : sequence of str, optional
-            The names of the outputs, as of `model`.
-        """
-        return self.model(names).run(*arguments, **options)
-
-    def _quantities(self) -> list[Quantity]:
-        return [_quantity(of, "an entry") for of in np.asarray(self, dtype=object).ravel()]
-
-    def _each(self, name: str) -> Any:
-        names = {
-            "estimate": "estimate", "u": "standard_uncertainty", "U": "expanded_uncertainty", "dof": "dof",
-        }  # fmt: skip
-        quantities = self._quantities()
-        figures: list[float] = []
+    def _each(self, *names: str) -> list[Numbers]:
+        """Figures by the law of propagation, an array for each."""
+        outputs = list(self._outputs(None).items())
+        figures: list[list[float]] = []
         # together they would have a coefficient for each input of any of them
-        for start in range(0, len(quantities), _TOGETHER):
-            part = quantities[start : start + _TOGETHER]
-            result = model_of({f"y{place}": of for place, of in enumerate(part, 1)}).run(trials=0)
-            figures += [getattr(of.gum, names[name]) for of in result.values()]
-        return np.array(figures, dtype=float).reshape(self.shape)
+        for start in range(0, len(outputs), _TOGETHER):
+            result = evaluated(dict(outputs[start : start + _TOGETHER]), trials=0)
+            figures += [[getattr(of.gum, name) for name in names] for of in result.values()]
+        columns = np.array(figures, dtype=float).reshape(len(outputs), len(names)).T
+        return [column.reshape(self.shape) for column in columns]
 
     def __repr__(self) -> str:
         return f"gumption.array({self._written_out(', ')})"
@@ -129,8 +136,9 @@ class Quantities(np.ndarray[Any, np.dtype[Any]]):
     def _repr_html_(self) -> str:
         if self.ndim != 1 or any(of._is_complex for of in self._quantities()):
             return _notebook.text(str(self))
+        figures = self._each("estimate", "standard_uncertainty", "expanded_uncertainty")
         units = np.broadcast_to(np.asarray(self.unit), self.shape)
-        return _notebook.whole([_notebook.estimates({"unit": units}, self.estimate, self.u, self.U)])
+        return _notebook.whole([_notebook.estimates({"unit": units}, *figures)])
 
     def _written_out(self, separator: str) -> str:
         plain = np.asarray(self, dtype=object)
@@ -148,29 +156,28 @@ class Quantities(np.ndarray[Any, np.dtype[Any]]):
 
     # comparisons are quantities, of which numpy would ask the truth
     def __lt__(self, other: Any) -> Any:
-        return _compared(operator.lt, self, other)
+        return _elementwise(operator.lt, self, other)
 
     def __le__(self, other: Any) -> Any:
-        return _compared(operator.le, self, other)
+        return _elementwise(operator.le, self, other)
 
     def __gt__(self, other: Any) -> Any:
-        return _compared(operator.gt, self, other)
+        return _elementwise(operator.gt, self, other)
 
     def __ge__(self, other: Any) -> Any:
-        return _compared(operator.ge, self, other)
+        return _elementwise(operator.ge, self, other)
 
     def __eq__(self, other: object) -> Any:
-        return _compared(operator.eq, self, other)
+        return _elementwise(operator.eq, self, other)
 
     def __ne__(self, other: object) -> Any:
-        return _compared(operator.ne, self, other)
+        return _elementwise(operator.ne, self, other)
 
     def __array_function__(self, function: Any, types: Any, arguments: Any, options: Any) -> Any:
-        name = f"{function.__module__}.{function.__name__}"
-        if name in _LINEAR and not options:
-            found = _LINEAR[name](*arguments)
+        if function in _LINEAR and not options:
+            found = _LINEAR[function](*arguments)
             return found.view(Quantities) if isinstance(found, np.ndarray) else found
-        if name == "numpy.where" and len(arguments) == 3 and not options:
+        if function is np.where and len(arguments) == 3 and not options:
             return chosen(*arguments)
         made = super().__array_function__(function, types, arguments, options)
         return made.view(Quantities) if isinstance(made, np.ndarray) and made.dtype == object else made
@@ -181,10 +188,10 @@ class Quantities(np.ndarray[Any, np.dtype[Any]]):
         return found.flat[0] if found.ndim == 0 else found.view(Quantities)
 
 
-def _compared(compare: Callable[[Any, Any], Any], first: Any, second: Any) -> Any:
-    plain = (np.asarray(value, dtype=object) for value in (first, second))
-    found = np.frompyfunc(compare, 2, 1)(*plain)
-    return found.view(Quantities) if isinstance(found, np.ndarray) else found
+def _elementwise(function: Callable[..., Any], *values: Any) -> Any:
+    """The results of a function of one element of each array, whatever it makes of these."""
+    found = np.frompyfunc(function, len(values), 1)(*(np.asarray(value, dtype=object) for value in values))
+    return np.asarray(found, dtype=object).view(Quantities)
 
 
 def chosen(condition: Any, first: Any, second: Any) -> Quantities:
@@ -195,24 +202,8 @@ def chosen(condition: Any, first: Any, second: Any) -> Quantities:
     condition, first, second : array_like
         The conditions, and what is chosen where they hold and where they do not.
     """
-    plain = (np.asarray(value, dtype=object) for value in (condition, first, second))
-    found = np.frompyfunc(_chosen, 3, 1)(*plain)
-    return np.asarray(found, dtype=object).view(Quantities)
-
-
-def covariances(correlations: Numbers, u: Numbers) -> Numbers:
-    """A covariance matrix. What is known exactly has no correlation, and the covariance 0.
-
-    Parameters
-    ----------
-    correlations : ndarray
-        The correlation matrix.
-    u : ndarray
-        The standard uncertainties.
-    """
-    products = np.outer(u, u)
-    matrix: Numbers = np.where(products == 0, 0.0, correlations * products)
-    return matrix
+    made: Quantities = _elementwise(_chosen, condition, first, second)
+    return made
 
 
 def _chosen(condition: Any, first: Any, second: Any) -> Any:
@@ -482,4 +473,6 @@ def _determinant(matrix: Any) -> Any:
     return _eliminated(matrix, np.zeros(len(matrix)))[1]
 
 
-_LINEAR: dict[str, Callable[..., Any]] = {"numpy.linalg.inv": _inverse, "numpy.linalg.solve": _solved, "numpy.linalg.det": _determinant}
+_LINEAR: dict[Any, Callable[..., Any]] = {
+    np.linalg.inv: _inverse, np.linalg.solve: _solved, np.linalg.det: _determinant,
+}  # fmt: skip

@@ -123,10 +123,10 @@ class _Trials:
         return column
 
 
-class _All(Mapping[str, OutputBudgets]):
+class _All(Table, Mapping[str, OutputBudgets]):
     """The budgets of all outputs by name.
 
-    Of a model of one output the columns are attributes as well.
+    Of a model of one output the columns are attributes as well, and it is the table of these.
     """
 
     def __init__(self, outputs: Mapping[str, OutputBudgets]) -> None:
@@ -160,21 +160,16 @@ class _All(Mapping[str, OutputBudgets]):
             raise AttributeError(f"there are several outputs, each with a table: {', '.join(self._outputs)}")
         return next(iter(self._outputs.values()))
 
-    def to_pandas(self) -> Any:
-        """The table of the only output, as `OutputBudgets.to_pandas`."""
-        return self._only().to_pandas()
+    # the table of the only output
 
-    def to_polars(self) -> Any:
-        """The table of the only output, as `OutputBudgets.to_polars`."""
-        return self._only().to_polars()
+    def _columns(self) -> dict[str, Any]:
+        return self._only()._columns()
 
-    def to_arrow(self) -> Any:
-        """The table of the only output, as `OutputBudgets.to_arrow`."""
-        return self._only().to_arrow()
+    def _labels(self) -> Labels | None:
+        return self._only()._labels()
 
-    def to_xarray(self) -> Any:
-        """The table of the only output, as `OutputBudgets.to_xarray`."""
-        return self._only().to_xarray()
+    def _units(self) -> dict[str, str]:
+        return self._only()._units()
 
     def __iter__(self) -> Iterator[str]:
         return iter(self._outputs)

@@ -70,8 +70,7 @@ class Effect:
         shown = [_notebook.title(self.about or "effect")]
         shown.append(_notebook.inputs({name: known.to_dict() for name, known in self.parameters.items()}))
         if self.overrides:
-            equations = [[_notebook.equation(name, formula)] for name, formula in self.overrides.items()]
-            shown.append(_notebook.table(["overrides"], equations))
+            shown.append(_notebook.equations(self.overrides, "overrides"))
         elif self.neutral:
             shown.append(_notebook.table(["absent at", "value"], self.neutral.items()))
         return _notebook.whole(shown)

@@ -11,6 +11,7 @@ import math
 import numbers
 from collections.abc import Callable, Iterable
 from fractions import Fraction
+from functools import lru_cache
 from typing import Any, NoReturn
 
 import numpy as np
@@ -285,6 +286,15 @@ def angle_of(symbol: str, operands: tuple[Term, ...]) -> float | None:
 def _real(literal: complex | None) -> float:
     """The factor of a number that is written out; 1 for what is none."""
     return literal if isinstance(literal, (int, float)) else 1.0
+
+
+#: What formulas make of a value in a unit, as `_gumption.unit_within`.
+unit_within = lru_cache(maxsize=4096)(_gumption.unit_within)
+
+
+def angle_in(unit: str) -> float | None:
+    """Of a unit of angle (or of angle times something, as ``deg/s``) 1."""
+    return 1.0 if unit_within(unit)[2] else None
 
 
 def is_about(value: float, factor: float) -> bool:

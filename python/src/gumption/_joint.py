@@ -87,6 +87,7 @@ class Joint:
         self._names: dict[object, str] = {}
         self._entries: dict[str, dict[str, Any]] = {}
         self._models: dict[int, dict[str, str]] = {}
+        self._reasons: dict[int, str | None] = {}
 
     @classmethod
     def of(
@@ -99,7 +100,8 @@ class Joint:
     ) -> Joint | None:
         """The combined models of values that share quantities with other values.
 
-        `terms` are names of those that stand in expressions, whose models are combined where that can be. So are results of runs without trials, which have no distribution to draw from. ``equations`` then
+        `terms` are names of those that stand in expressions, whose models are combined where that can be.
+        So are results of runs without trials, which have no distribution to draw from. ``equations`` then
         contains those values under their own names. `None` if there are none.
 
         Raises
@@ -109,16 +111,12 @@ class Joint:
         """
         sharing = _sharing(known)
         untried = [name for name, value in known.items() if is_output(value) and not value._result.has_trials]
+        joint = cls([*known, *taken], check_units)
         of_results = [name for name in terms if is_output(known[name])]
-        possible = [
-            name
-            for name in of_results
-            if _why_not(known[name]._result.model, known[name]._result, check_units) is None
-        ]
+        possible = [name for name in of_results if joint._why_not(known[name]._result) is None]
         together = list(dict.fromkeys([*sharing, *untried, *possible]))
         if not together:
             return None
-        joint = cls([*known, *taken], check_units)
         for name, value in known.items():
             if not is_output(value):
                 own = as_input(value, name)
@@ -184,11 +182,41 @@ class Joint:
             self._models[id(model)] = self._added(model, result)
         return self._models[id(model)]
 
-    def _added(self, model: Model, result: Result) -> dict[str, str]:
+    def _why_not(self, result: Result) -> str | None:
+        """Why the formulas of a result's model cannot be inserted into another one; `None` if they can."""
+        if id(result) not in self._reasons:
+            self._reasons[id(result)] = self._reason(result)
+        return self._reasons[id(result)]
+
+    def _reason(self, result: Result) -> str | None:
+        model = result.model
         file = model.to_dict()
         title = f"the model {model.title!r}"
-        if reason := _why_not(model, result, self._check_units):
+        if model._function is not None:
+            return f"{title} is a function that could not be traced"
+        if model._rust.source[5]:
+            return f"estimates of {title} were replaced by `set`"
+        if model._rust.source[7] is not None:
+            return f"readings of {title} were replaced"
+        if others := sorted(set(file) - _PLAIN):
+            return f"{title} has `{others[0]}`"
+        if result.rows > 1:
+            return f"{title} has {result.rows} rows of conditions"
+        if file.get("check_units", True) != self._check_units:
+            return "units are checked in one of their models and not in another one"
+        for name in file["inputs"]:
+            value = (model._known or {}).get(name)
+            if value is None:
+                return f"what `{name}` of {title} is stands in its file alone"
+            if is_output(value) and (reason := self._why_not(value._result)):
+                return reason
+        return None
+
+    def _added(self, model: Model, result: Result) -> dict[str, str]:
+        if reason := self._why_not(result):
             raise _NotTogether(reason)
+        file = model.to_dict()
+        title = f"the model {model.title!r}"
         for name, content in model._rust.source[3]:
             if name not in file.get("conditions", {}).values() and self.held.setdefault(name, content) != content:
                 raise _NotTogether(f"{title} names another file `{name}`")
@@ -209,31 +237,6 @@ class Joint:
         for first, second, coefficient in file.get("correlations", []):
             self.links.append((names[first], names[second], coefficient))
         return names
-
-
-def _why_not(model: Model, result: Result, check_units: bool) -> str | None:
-    """Why the formulas of a result's model cannot be inserted into another one; `None` if they can."""
-    file = model.to_dict()
-    title = f"the model {model.title!r}"
-    if model._function is not None:
-        return f"{title} is a function that could not be traced"
-    if model._rust.source[5]:
-        return f"estimates of {title} were replaced by `set`"
-    if model._rust.source[7] is not None:
-        return f"readings of {title} were replaced"
-    if others := sorted(set(file) - _PLAIN):
-        return f"{title} has `{others[0]}`"
-    if result.rows > 1:
-        return f"{title} has {result.rows} rows of conditions"
-    if file.get("check_units", True) != check_units:
-        return "units are checked in one of their models and not in another one"
-    for name in file["inputs"]:
-        value = (model._known or {}).get(name)
-        if value is None:
-            return f"what `{name}` of {title} is stands in its file alone"
-        if is_output(value) and (reason := _why_not(value._result.model, value._result, check_units)):
-            return reason
-    return None
 
 
 def listed(names: Iterable[str]) -> str:

@@ -190,8 +190,7 @@ class Measurement:
     def _repr_html_(self) -> str:
         shown = [_notebook.title(self.title)]
         if self.equations is not None:
-            lines = [[_notebook.equation(name, formula)] for name, formula in self.equations.items()]
-            shown.append(_notebook.table(["equation"], lines))
+            shown.append(_notebook.equations(self.equations))
         else:
             why = _notebook.table(["computed by Python, as it is not traced"], [[self.why_not_traced]])
             shown.append(why)

@@ -387,8 +387,7 @@ class Model(Generic[Figure_co]):
         file = self.to_dict()
         shown = [_notebook.title(self.title)]
         if equations := self._equations():
-            lines = [[_notebook.equation(name, formula)] for name, formula in equations.items()]
-            shown.append(_notebook.table(["equation"], lines))
+            shown.append(_notebook.equations(equations))
         elif self._function is not None:
             shown.append("<div>computed by a Python function</div>")
         shown.append(_notebook.inputs(file.get("inputs", {})))
@@ -616,7 +615,7 @@ def _carried(path: str, wanted: str | None) -> tuple[str, str, list[tuple[str, b
     for one in found:
         if wanted in (one[0], os.path.splitext(os.path.basename(one[0]))[0]):
             return one
-    names = ", ".join(f"`{name}`" for name, _, _ in found)
+    names = listed(name for name, _, _ in found)
     raise _gumption.ModelError(f"{path}: it carries {names}; say which with `model=`")
 
 

@@ -88,9 +88,10 @@ def formula(text: str) -> Markup:
     return Markup(_gumption.equation_html(text))
 
 
-def equation(name: str, formula: str) -> Markup:
-    """An equation, set as on the pages."""
-    return Markup(f"{_gumption.equation_html(name)} = {_gumption.equation_html(formula)}")
+def equations(formulas: Mapping[str, str], heading: str = "equation") -> str:
+    """A table of equations, set as on the pages."""
+    lines = [[Markup(f"{formula(name)} = {formula(text)}")] for name, text in formulas.items()]
+    return table([heading], lines)
 
 
 def chosen(count: int) -> list[int | None]:

@@ -17,7 +17,7 @@ import numpy as np
 import numpy.typing as npt
 
 from gumption import _gumption, _notebook
-from gumption._formula import Term, Writer, angle_of, binary, cut, is_about
+from gumption._formula import Term, Writer, angle_in, angle_of, binary, cut, is_about, unit_within
 
 if TYPE_CHECKING:
     from gumption._model import Model
@@ -33,24 +33,21 @@ _OF_NUMBERS = {
 
 _ROOTS = {"sqrt": 2, "cbrt": 3}
 
-#: Functions whose arguments have one dimension, and whose result has it as well.
-_OF_ONE_DIMENSION = {"min", "max", "hypot", "mod"}
-
 #: Parts of a complex number, which are real.
 _PARTS = {"abs", "arg", "re", "im"}
 
+#: Comparisons, and how they compare numbers.
+_COMPARED = {
+    "<": float.__lt__, "<=": float.__le__, ">": float.__gt__, ">=": float.__ge__,
+    "==": float.__eq__, "!=": float.__ne__,
+}  # fmt: skip
 
 _fit = lru_cache(maxsize=4096)(_gumption.units_fit)
-_within = lru_cache(maxsize=4096)(_gumption.unit_within)
 _product_of = lru_cache(maxsize=4096)(lambda parts: _gumption.unit_product(list(parts)))
 
 
 def _has_zero(unit: str) -> bool:
-    return bool(_within(unit)[1])
-
-
-def _is_angle(unit: str) -> bool:
-    return bool(_within(unit)[2])
+    return bool(unit_within(unit)[1])
 
 
 def _product(*parts: tuple[str, int, int]) -> str:
@@ -110,7 +107,7 @@ class Quantity(Term):
                 )
             given.append(operand)
         unit = _unit_of(symbol, given)
-        kind = Comparison if symbol in ("<", "<=", ">", ">=", "==", "!=") else Expression
+        kind = Comparison if symbol in _COMPARED else Expression
         return kind(symbol, tuple(given), unit)
 
     def _written(self, text: str, value: complex) -> Quantity:
@@ -125,7 +122,8 @@ class Quantity(Term):
         return found.view(Quantities)
 
     def __array_function__(self, function: Any, types: Any, arguments: Any, options: Any) -> Any:
-        if function is np.where and len(arguments) == 3 and any(isinstance(value, (list, tuple, np.ndarray)) for value in arguments):
+        is_array = any(isinstance(value, (list, tuple, np.ndarray)) for value in arguments)
+        if function is np.where and len(arguments) == 3 and is_array:
             from gumption._arrays import chosen
 
             return chosen(*arguments)
@@ -133,7 +131,7 @@ class Quantity(Term):
 
     @property
     def angle(self) -> float | None:
-        return 1.0 if _is_angle(self._unit) else None
+        return angle_in(self._unit)
 
     def _shown(self) -> str:
         names, _ = _named([self], set())
@@ -173,48 +171,39 @@ class Quantity(Term):
         name : str, optional
             The name of the output; ``y``, or ``y_2`` where an input is called ``y``.
         """
-        model = model_of({name or self._own_name(): self}, trials=0 if trials == 0 else None)
-        return model.run(trials, seed, **options)
+        return evaluated({name or self._own_name(): self}, trials, seed, **options)
+
+    def _propagated(self) -> Result:
+        """The result by the law of propagation; of a complex quantity of its real and its imaginary part."""
+        parts = {"re": self.real, "im": self.imag} if self._is_complex else {self._own_name(): self}
+        return evaluated(parts, trials=0)
 
     def _evaluated(self) -> Output:
-        return next(iter(self.run(trials=0).values()))
+        return next(iter(self._propagated().values()))
 
     def _figure(self, name: str) -> float:
         return float(getattr(self._evaluated().gum, name))
 
-    def _parts(self) -> tuple[Result, Output, Output]:
-        """The real and imaginary parts of a complex quantity, evaluated together."""
-        result = model_of({"re": self.real, "im": self.imag}, trials=0).run()
-        return result, result["re"], result["im"]
+    def _figures(self, name: str) -> list[float]:
+        """A figure of the real and the imaginary part."""
+        return [float(getattr(part.gum, name)) for part in self._propagated().values()]
 
     @property
     def estimate(self) -> Any:
         """The estimate; of a complex quantity a complex number."""
-        if self._is_complex:
-            _, re, im = self._parts()
-            return complex(float(re.gum.estimate), float(im.gum.estimate))
-        return self._figure("estimate")
+        return complex(*self._figures("estimate")) if self._is_complex else self._figure("estimate")
 
     @property
     def u(self) -> Any:
         """The standard uncertainty; of a complex quantity those of its parts."""
         if self._is_complex:
-            _, re, im = self._parts()
-            return ComplexUncertainty(
-                float(re.gum.standard_uncertainty), float(im.gum.standard_uncertainty)
-            )
+            return ComplexUncertainty(*self._figures("standard_uncertainty"))
         return self._figure("standard_uncertainty")
 
     @property
     def covariance(self) -> npt.NDArray[np.float64]:
         """Of a complex quantity the covariance matrix of its real and imaginary part; else its variance."""
-        if not self._is_complex:
-            return np.array([[self.u**2]])
-        result, re, im = self._parts()
-        from gumption._arrays import covariances
-
-        u = np.array([re.gum.standard_uncertainty, im.gum.standard_uncertainty], dtype=float)
-        return covariances(result.correlations(), u)
+        return covariance_of(self._propagated()) if self._is_complex else np.array([[self.u**2]])
 
     @property
     def dof(self) -> float:
@@ -264,7 +253,7 @@ class Quantity(Term):
         if _has_zero(own) != _has_zero(unit):
             raise _gumption.ModelError(
                 f"a quantity in {own} can be in {unit} a value from its zero or a difference: `gumption.kelvin(t)` and "
-                f"`gumption.celsius(T)` convert temperatures, and a difference comes of `t1 - t2`"
+                "`gumption.celsius(T)` convert temperatures, and a difference comes of `t1 - t2`"
             )
         return Expression("", (self,), unit)
 
@@ -309,10 +298,10 @@ class Quantity(Term):
     def __str__(self) -> str:
         unit = "" if self._unit == "1" else f" {self._unit}"
         if self._is_complex:
-            y, u = self.estimate, self.u
-            re, im = _shorthand(y.real, u.real), _shorthand(y.imag, u.imag)
+            re, im = map(_shorthand, self._figures("estimate"), self._figures("standard_uncertainty"))
             return f"({re}{'' if im.startswith('-') else '+'}{im}j){unit}"
-        return f"{_shorthand(self.estimate, self.u)}{unit}"
+        gum = self._evaluated().gum
+        return f"{_shorthand(gum.estimate, gum.standard_uncertainty)}{unit}"
 
     def __format__(self, form: str) -> str:
         if form:
@@ -340,7 +329,7 @@ class Expression(Quantity):
     ) -> None:
         super().__init__(symbol, operands, literal)
         self.unit = unit
-        self._done: Output | None = None
+        self._done: Result | None = None
         self._of_complex = (
             literal is not None and isinstance(literal, complex)
             if not operands
@@ -388,9 +377,9 @@ class Expression(Quantity):
                 found.append(one)
         yield from found
 
-    def _evaluated(self) -> Output:
+    def _propagated(self) -> Result:
         if self._done is None:
-            self._done = super()._evaluated()
+            self._done = super()._propagated()
         return self._done
 
     def __repr__(self) -> str:
@@ -524,12 +513,6 @@ class Comparison(Expression):
         return _notebook.whole([_notebook.formula(self._shown())])
 
 
-_COMPARED = {
-    "<": float.__lt__, "<=": float.__le__, ">": float.__gt__, ">=": float.__ge__,
-    "==": float.__eq__, "!=": float.__ne__,
-}  # fmt: skip
-
-
 def _shorthand(estimate: float, u: float) -> str:
     """An estimate with its standard uncertainty in parentheses (JCGM 100, 7.2.2)."""
     if not (u > 0 and math.isfinite(u) and math.isfinite(estimate)):
@@ -569,7 +552,7 @@ def _unit_of(symbol: str, operands: list[Quantity]) -> str:
     if len(operands) == 1:
         return units[0]
     _check_same(symbol, operands, units)
-    if symbol in ("<", "<=", ">", ">=", "==", "!="):
+    if symbol in _COMPARED:
         return "1"
     zeros = [unit for unit in units if _has_zero(unit)]
     if symbol == "-" and len(zeros) == 2:
@@ -612,7 +595,7 @@ def _check_number(symbol: str, unit: str) -> None:
 
 
 def _check_same(symbol: str, operands: Iterable[Quantity], units: list[str]) -> None:
-    angle = next((unit for unit in units if _is_angle(unit) and unit != "rad" and _fit(unit, "1")), None)
+    angle = next((unit for unit in units if angle_in(unit) and unit != "rad" and _fit(unit, "1")), None)
     for operand in operands:
         if angle is not None and operand.literal:
             raise _gumption.ModelError(
@@ -781,3 +764,35 @@ def model_of(
     held, known = take_inputs(file, leaves, dict.fromkeys(leaves, "1"), {}, leaves)
     rust = _gumption.Model("<expression>", written(file), "", list(held.items()))
     return Model._of(rust, known=known)
+
+
+def evaluated(
+    quantities: Mapping[str, Quantity],
+    trials: int | float | str | None = None,
+    seed: int | None = None,
+    **options: Any,
+) -> Result:
+    """The result of several quantities. Without trials the model says so: some inputs are for this alone.
+
+    Parameters
+    ----------
+    quantities : mapping of str to Quantity
+        The outputs by name.
+    trials, seed, **options
+        As of `Model.run`.
+    """
+    return model_of(quantities, trials=0 if trials == 0 else None).run(trials, seed, **options)
+
+
+def covariance_of(result: Result) -> npt.NDArray[np.float64]:
+    """The covariance matrix of the outputs, by the law of propagation.
+
+    Parameters
+    ----------
+    result : Result
+        A result without conditions. An output that is known exactly has no correlation, and the covariance 0.
+    """
+    u = np.array([output.gum.standard_uncertainty for output in result.values()], dtype=float)
+    products = np.outer(u, u)
+    matrix: npt.NDArray[np.float64] = np.where(products == 0, 0.0, result.correlations() * products)
+    return matrix

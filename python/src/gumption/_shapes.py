@@ -25,6 +25,7 @@ import numpy as np
 import numpy.typing as npt
 
 from gumption import _gumption
+from gumption._formula import unit_within
 from gumption._quantity import Quantity
 
 if TYPE_CHECKING:
@@ -225,7 +226,7 @@ def _shape(
     if name:
         _check_name(name)
     if unit is not None:
-        _gumption.unit_scale(unit)
+        unit_within(unit)
     for key, value in {**fields, **more}.items():
         found = plain(value)
         if key == "dof" and found == math.inf:

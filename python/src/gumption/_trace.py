@@ -10,7 +10,7 @@ from typing import Any, NoReturn
 import numpy as np
 
 from gumption import _gumption
-from gumption._formula import Term, Writer, angle_of, binary, is_about, literal
+from gumption._formula import Term, Writer, angle_in, angle_of, binary, is_about, literal
 
 
 class NotTraceable(TypeError):
@@ -69,14 +69,9 @@ def quantity(value: float, unit: str) -> Any:
     """
     tape = _TAPE.get()
     if tape is not None:
-        return Traced(tape, f"{float(value)!r} [{unit}]", angle=_angle_in(unit))
+        return Traced(tape, f"{float(value)!r} [{unit}]", angle=angle_in(unit))
     factor, offset = _gumption.unit_scale(unit)
     return float(value) * factor + offset
-
-
-def _angle_in(unit: str) -> float | None:
-    """Of a unit of angle (or of angle times something, as ``deg/s``) 1."""
-    return 1.0 if _gumption.unit_within(unit)[2] else None
 
 
 class Traced(Term):
@@ -227,7 +222,7 @@ def equations(
     tape = Tape(has_units, arguments)
     token = _TAPE.set(tape)
     try:
-        traced = {name: Traced(tape, name, angle=_angle_in(unit)) for name, unit in arguments.items()}
+        traced = {name: Traced(tape, name, angle=angle_in(unit)) for name, unit in arguments.items()}
         found = names(function(traced))
         results: dict[str, Term] = {}
         nothing = Traced(tape, "0")
@@ -243,7 +238,7 @@ def equations(
         _TAPE.reset(token)
     for name, result in results.items():
         if result.angle is not None and is_about(result.angle, 180 / math.pi):
-            if tape.mistake is None and _angle_in(outputs[name]) is not None:
+            if tape.mistake is None and angle_in(outputs[name]) is not None:
                 tape.mistake = _gumption.ModelError(
                     f"`{name}` is converted from radians to degrees, but what the function gives for a "
                     f"quantity in {outputs[name]} is taken in radians. Leave the conversion out; or, if "
