@@ -191,7 +191,7 @@ class Quantities(np.ndarray[Any, np.dtype[Any]]):
 def _elementwise(function: Callable[..., Any], *values: Any) -> Any:
     """The results of a function of one element of each array, whatever it makes of these."""
     found = np.frompyfunc(function, len(values), 1)(*(np.asarray(value, dtype=object) for value in values))
-    return np.asarray(found, dtype=object).view(Quantities)
+    return found.view(Quantities) if isinstance(found, np.ndarray) else found
 
 
 def chosen(condition: Any, first: Any, second: Any) -> Quantities:
@@ -202,8 +202,7 @@ def chosen(condition: Any, first: Any, second: Any) -> Quantities:
     condition, first, second : array_like
         The conditions, and what is chosen where they hold and where they do not.
     """
-    made: Quantities = _elementwise(_chosen, condition, first, second)
-    return made
+    return np.asarray(_elementwise(_chosen, condition, first, second), dtype=object).view(Quantities)
 
 
 def _chosen(condition: Any, first: Any, second: Any) -> Any:
