@@ -37,6 +37,7 @@ mod found;
 mod known_noise;
 mod measured;
 mod near_noise;
+mod normals;
 mod note;
 mod observation;
 mod passes;
@@ -56,6 +57,7 @@ mod trials;
 mod unexplained;
 mod unsuitable;
 mod values;
+mod waveform;
 
 use fit::{
     coloured, common_noise, dirichlet, drift, frequency, lattice, outlying, periodic, polar,
@@ -100,6 +102,12 @@ pub use surroundings::{Finding, Surroundings};
 pub use trace::{RecordTrace, SampleRanges, SpectrumColumn, TRACE_COLUMNS, TraceTone};
 pub use track::ChannelRecording;
 pub use unsuitable::Unsuitable;
+pub use waveform::{
+    Beyond, CalibratedResponse, Coordinates, Cutoff, Errors, LineResponse, LowPass,
+    ModelledResponse, NoiseColour, PointError, QuantityFound, QuietPart, ResponseModel, Truncation,
+    Waveform, WaveformQuantity, WaveformSource, WaveformStep, WaveformTrials,
+    corrected as corrected_waveform, ratio,
+};
 pub use whole_periods::{WholePeriods, whole_periods};
 
 #[cfg(test)]

@@ -5,11 +5,11 @@
 use std::f64::consts::PI;
 
 use super::analysed::Analysed;
+use super::normals::Normals;
 use super::phasor::wrapped;
 use super::polar::Polar;
-use gumption_engine::distribution::{BLOCK, StreamKey};
+use gumption_engine::distribution::StreamKey;
 use gumption_engine::number::elementary::{atan2, hypot, sin};
-use gumption_engine::special::normal;
 
 /// Root mean square errors over the trials.
 #[derive(Clone, Debug)]
@@ -111,29 +111,4 @@ struct Centre {
     multiple: f64,
     /// The square of the noise's size.
     noise: f64,
-}
-
-/// Standard normal numbers of a stream, one after the other.
-struct Normals {
-    key: StreamKey,
-    block: u64,
-    place: usize,
-    numbers: [f64; BLOCK],
-}
-
-impl Normals {
-    fn new(key: StreamKey) -> Self {
-        Self { key, block: 0, place: BLOCK, numbers: [0.0; BLOCK] }
-    }
-
-    fn next(&mut self) -> f64 {
-        if self.place == BLOCK {
-            self.key.block(self.block).uniform(&mut self.numbers);
-            self.numbers.iter_mut().for_each(|number| *number = normal::quantile(*number));
-            self.block += 1;
-            self.place = 0;
-        }
-        self.place += 1;
-        self.numbers[self.place - 1]
-    }
 }
