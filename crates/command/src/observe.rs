@@ -9,8 +9,12 @@ use super::{CommandLine, Exit, Failure, run};
 use gumption_engine::fact;
 use gumption_engine::task::Warning;
 use gumption_files::{FileReader, RecipeFile};
+use gumption_report::Provenance;
 use gumption_report::observe::{self as report, ObservationReport};
-use gumption_signal::{Observation, RecordTrace, observe, observe_with_traces};
+use gumption_report::waveform::{self, WaveformReport};
+use gumption_signal::{
+    Observation, RecordTrace, Waveform, observe, observe_with_traces, waveform_notes, waveforms,
+};
 
 /// Determine amplitudes, phases and delays with their uncertainties from raw recordings.
 #[derive(Debug, Args)]
@@ -53,6 +57,10 @@ impl Observe {
         let place = self.answer.open(&options::with_named(&self.recipe, file.named_files()))?;
         file.settings.seed = self.seed.or(file.settings.seed);
         let mut provenance = run::provenance(&file.source.text, &[]);
+        provenance.files.extend(file.digests.iter().cloned());
+        if !file.waveforms.is_empty() {
+            return self.correct(&file, provenance, place, page);
+        }
         let mut warnings: Vec<Warning> = Vec::new();
         let mut rows = Vec::new();
         let mut traces = Vec::new();
@@ -62,16 +70,8 @@ impl Observe {
             let ObservedRow { observation, traces: seen, warnings: found, digests } =
                 observed(&file, row, is_page)?;
             traces.push(seen);
-            for warning in found {
-                if !warnings.contains(&warning) {
-                    warnings.push(warning);
-                }
-            }
-            for digest in digests {
-                if !provenance.files.contains(&digest) {
-                    provenance.files.push(digest);
-                }
-            }
+            add_new(&mut warnings, found);
+            add_new(&mut provenance.files, digests);
             rows.push((file.rows[row].conditions.clone(), observation));
         }
         let found = ObservationReport {
@@ -97,6 +97,69 @@ impl Observe {
         }
         self.answer.write_page(place, answer)?;
         Ok(Exit::Done)
+    }
+}
+
+impl Observe {
+    /// Corrects the records of a recipe of waveforms.
+    fn correct(
+        &self,
+        file: &RecipeFile,
+        mut provenance: Provenance,
+        place: crate::output::AnswerPlace,
+        page: impl FnOnce(String) -> String,
+    ) -> Result<Exit, Failure> {
+        let mut warnings: Vec<Warning> = file.warnings.clone();
+        let mut rows: Vec<(Vec<f64>, Vec<Waveform>)> = Vec::new();
+        for row in 0..file.rows.len() {
+            let mut opened = file.open(row)?;
+            let drawn = (file.settings.seed, file.settings.trials);
+            let found = waveforms(&file.waveforms, drawn, &mut opened.tracks)
+                .map_err(|refused| file.refusal(row, &refused))?;
+            let several = file.rows.len() > 1;
+            for (channel, of) in file.waveforms.iter().zip(&found) {
+                for fact in waveform_notes(channel, of) {
+                    let warning = Warning::new(&channel.name, fact);
+                    opened.warnings.push(match several {
+                        true => warning.within(fact!("of-row", row = row + 1)),
+                        false => warning,
+                    });
+                }
+            }
+            add_new(&mut warnings, opened.warnings);
+            add_new(&mut provenance.files, opened.digests);
+            rows.push((file.rows[row].conditions.clone(), found));
+        }
+        let found = WaveformReport {
+            title: file.title.as_deref(),
+            settings: &file.settings,
+            channels: &file.waveforms,
+            conditions: &file.conditions,
+            rows: &rows,
+            warnings: &warnings,
+            provenance: &provenance,
+        };
+        let answer = || match self.answer.format {
+            ObserveFormat::Table => waveform::table(&found),
+            ObserveFormat::Json => waveform::json(&found),
+            ObserveFormat::Csv => waveform::csv(&found),
+            ObserveFormat::Markdown => waveform::markdown(&found),
+            ObserveFormat::Html => page(waveform::html(&found)),
+        };
+        if self.answer.format != ObserveFormat::Table || self.answer.is_to_file() {
+            self.answer.say(&warnings);
+        }
+        self.answer.write_page(place, answer)?;
+        Ok(Exit::Done)
+    }
+}
+
+/// Adds what is not among them.
+fn add_new<T: PartialEq>(all: &mut Vec<T>, found: Vec<T>) {
+    for one in found {
+        if !all.contains(&one) {
+            all.push(one);
+        }
     }
 }
 

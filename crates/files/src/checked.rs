@@ -88,7 +88,8 @@ pub(super) fn check_text(
 ) -> Result<Vec<Warning>, Diagnostics> {
     if let Ok(root) = json::parse(&SourceText::new(name, text)) {
         if recipe::is_meant(&root) {
-            return recipe::check_text(name, text, files.folder(folder)).map(|()| Vec::new());
+            return recipe::check_text(name, text, (files, files.folder(folder)))
+                .map(|()| Vec::new());
         }
         if costs::is_meant(&root) {
             return costs::check_text(name, text).map(|()| Vec::new());

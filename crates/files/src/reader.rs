@@ -207,7 +207,7 @@ impl<'c> FileReader<'c> {
         text: &str,
         folder: &Path,
     ) -> Result<RecipeFile, Diagnostics> {
-        recipe::read_text(name, text, self.0.folder(folder))
+        recipe::read_text(name, text, (self.0, self.0.folder(folder)))
     }
 
     /// A certificate file with its model files.

@@ -31,6 +31,7 @@ mod statement;
 mod subtotals;
 mod table;
 pub mod verification;
+pub mod waveform;
 pub mod words;
 mod workbook;
 

@@ -105,8 +105,8 @@ pub use unsuitable::Unsuitable;
 pub use waveform::{
     Beyond, CalibratedResponse, Coordinates, Cutoff, Errors, LineResponse, LowPass,
     ModelledResponse, NoiseColour, PointError, QuantityFound, QuietPart, ResponseModel, Truncation,
-    Waveform, WaveformQuantity, WaveformSource, WaveformStep, WaveformTrials,
-    corrected as corrected_waveform, ratio,
+    Waveform, WaveformChannel, WaveformQuantity, WaveformSource, WaveformStep, WaveformTrials,
+    corrected as corrected_waveform, notes as waveform_notes, waveforms,
 };
 pub use whole_periods::{WholePeriods, whole_periods};
 

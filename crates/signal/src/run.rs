@@ -310,14 +310,14 @@ fn through_filter(
     Ok(findings)
 }
 
-fn signal(base: TimeBase, values: Option<&Vec<f64>>) -> Signal {
+pub(super) fn signal(base: TimeBase, values: Option<&Vec<f64>>) -> Signal {
     Signal { values: values.cloned().unwrap_or_default(), rate: base.rate.value, start: base.start }
 }
 
-type InMemory = Option<(usize, TimeBase, InMemorySamples)>;
+pub(super) type InMemory = Option<(usize, TimeBase, InMemorySamples)>;
 
 /// A channel's values in memory, with its recording and its instants.
-fn held<P: SampleSource>(
+pub(super) fn held<P: SampleSource>(
     tracks: &mut [ChannelRecording<P>],
     channel: usize,
 ) -> Result<InMemory, Refused<P::Error>> {

@@ -154,7 +154,7 @@ impl Signal {
 }
 
 /// The signal less its mean.
-fn without_mean(mut signal: Signal) -> Signal {
+pub(super) fn without_mean(mut signal: Signal) -> Signal {
     let mean = signal.values.iter().sum::<f64>() / signal.values.len().max(1) as f64;
     signal.values.iter_mut().for_each(|value| *value -= mean);
     signal

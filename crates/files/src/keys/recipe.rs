@@ -182,7 +182,7 @@ fn corners() -> Value {
 pub(crate) const RECIPE_KEY: &str = "recordings";
 
 /// The names of the steps, and their keys beside `step`.
-pub(crate) const STEPS: [(&str, &[&str]); 13] = [
+pub(crate) const STEPS: [(&str, &[&str]); 14] = [
     ("remove-mean", &[]),
     ("remove-trend", &[]),
     ("whole-periods", &[]),
@@ -196,6 +196,7 @@ pub(crate) const STEPS: [(&str, &[&str]); 13] = [
     ("correct", &["gain", "phase", "delay", "response", "high_passes"]),
     ("delay", &["segments"]),
     ("rms", &[]),
+    ("waveform", &["response", "unit", "low_pass", "truncation", "noise", "delay", "quantities"]),
 ];
 
 /// Keys of any step; each has some of them.
@@ -217,9 +218,7 @@ const STEP: &[Key] = keys![
     "gain" => referenced("quantity", "Gain that the signal is divided by."),
     "phase" => referenced("quantity", "Phase that is taken off, in deg unless told."),
     "delay" => referenced("quantity", "Delay that is taken off, in s unless told."),
-    "response" => described("array", "Points of the response that the signal is divided by.")
-                .with("items", point())
-                .with("minItems", 1),
+    "response" => response(),
     "high_passes" => corners(),
     "segments" => whole(
                 "Segments of the cross-spectrum, of whole periods each (of one alone the coherence \
@@ -227,6 +226,137 @@ const STEP: &[Key] = keys![
                 2,
                 10_000,
             ),
+    "low_pass" => one_way(
+        "Low-pass of a waveform; `none`: none.",
+        &["none"],
+        closed("A low-pass of equal poles.", LOW_PASS, &["cutoff"]),
+    ),
+    "truncation" => one_way(
+        "What is known of the part that the low-pass takes away; `none`: the signal has nothing there.",
+        &["none"],
+        closed("A bound: of its size, or of the spectrum's fall.", TRUNCATION, &[]),
+    ),
+    "noise" => closed(
+        "Noise of a waveform: of a part of the record or of a channel without a signal, or stated.",
+        WAVEFORM_NOISE,
+        &[],
+    ),
+    "quantities" => described("array", "Figures of a waveform.").with("items", waveform_quantity()),
+];
+
+/// Keys of the low-pass of a waveform.
+pub(crate) const LOW_PASS: &[Key] = keys![
+    "cutoff" => object([
+        (
+            "description",
+            Value::from(
+                "Frequency at which its gain is 1/sqrt(2), in Hz unless told; `proposed`: that with which noise and \
+                 truncation have the smallest variance together.",
+            ),
+        ),
+        ("anyOf", Value::from(vec![reference("quantity"), object([("enum", texts(["proposed"]))])])),
+    ]),
+    "order" => whole("Poles; 2 unless told.", 1, 24),
+    "delay" => referenced(
+        "quantity",
+        "What is taken off its delay, in s unless told; without it the low-pass shifts no phase.",
+    ),
+];
+
+/// Keys of what a low-pass takes away.
+pub(crate) const TRUNCATION: &[Key] = keys![
+    "bound" => referenced("quantity", "Its greatest size at any instant, in the unit of the answer unless told."),
+    "from" => hertz("Frequency from which the spectrum falls at least with the power `decay`, in Hz unless told."),
+    "decay" => described("number", "The power of the frequency.").with("exclusiveMinimum", 1),
+];
+
+/// Keys of the noise of a waveform.
+pub(crate) const WAVEFORM_NOISE: &[Key] = keys![
+    "standard_uncertainty" => referenced(
+        "quantity",
+        "Standard deviation of white noise, in the unit of the channel unless told.",
+    ),
+    "channel" => text_of("A channel without a signal."),
+    "from" => referenced("quantity", "Instant at which a part without a signal begins, in s unless told."),
+    "to" => referenced("quantity", "Instant at which it ends."),
+    "colour" => described("string", "`measured`: its spectrum counts (unless told); `white`: its variance alone.")
+        .with("enum", texts(["measured", "white"])),
+];
+
+/// Keys of a figure of a waveform; each has some of them.
+const WAVEFORM_QUANTITY: &[Key] = keys![
+    "quantity" => object([("enum", texts(WAVEFORM_QUANTITIES.map(|(name, _)| name)))]),
+    "name" => referenced("name", "Its name in the answer; that of the quantity unless told."),
+    "level" => described("number", "Level of a duration, of the greatest value.")
+        .with("exclusiveMinimum", 0)
+        .with("exclusiveMaximum", 1),
+    "from" => referenced("quantity", "Instant at which an integral begins, in s unless told."),
+    "to" => referenced("quantity", "Instant at which it ends."),
+    "channel" => text_of("The channel whose greatest value a ratio is to."),
+];
+
+fn waveform_quantity() -> Value {
+    let names = object([("enum", texts(WAVEFORM_QUANTITIES.map(|(name, _)| name)))]);
+    let whole = closed("A figure with its parameters.", WAVEFORM_QUANTITY, &["quantity"]);
+    object([("anyOf", Value::from(vec![names, whole]))])
+}
+
+/// One of some words, or an object.
+fn one_way(about: &str, words: &[&str], whole: Value) -> Value {
+    let words = object([("enum", texts(words.iter().copied()))]);
+    object([("description", Value::from(about)), ("anyOf", Value::from(vec![words, whole]))])
+}
+
+/// Keys of the response of a waveform.
+pub(crate) const RESPONSE: &[Key] = keys![
+    "x" => referenced("points", "The frequencies of a calibration, exact."),
+    "y" => referenced("complex-ordinates", "The response at these."),
+    "correlation" => described(
+        "number",
+        "Correlation coefficient of the errors of any two points; 0 unless told.",
+    )
+    .with("minimum", 0)
+    .with("maximum", 1),
+    "shared" => described(
+        "string",
+        "Whether all lines of the spectrum about a point have its error (`points`, unless told), or each line one of \
+         its own (`lines`).",
+    )
+    .with("enum", texts(["points", "lines"])),
+    "below" => beyond("below the first frequency"),
+    "above" => beyond("above the last frequency"),
+    "model" => referenced("file", "A model file with the fit, in place of points."),
+    "fit" => text_of("The fit of a complex y in that file."),
+];
+
+fn beyond(side: &str) -> Value {
+    let about = format!("What is done {side}: the point is held, or the signal has nothing there.");
+    described("string", &about).with("enum", texts(["hold", "cut"]))
+}
+
+fn response() -> Value {
+    let points =
+        described("array", "For `correct`: points of the response that the signal is divided by.")
+            .with("items", point())
+            .with("minItems", 1);
+    let whole = closed("For `waveform`: points with their uncertainties, or a fit.", RESPONSE, &[]);
+    object([("anyOf", Value::from(vec![points, whole]))])
+}
+
+/// Keys of a recipe that have a meaning for oscillations only.
+pub(crate) const OF_OSCILLATIONS: [&str; 7] =
+    ["reference", "frequency", "components", "harmonics", "method", "amplitude", "phase_unit"];
+
+/// The figures of a waveform, and their keys beside `quantity` and `name`.
+pub(crate) const WAVEFORM_QUANTITIES: [(&str, &[&str]); 8] = [
+    ("maximum", &[]),
+    ("minimum", &[]),
+    ("maximum-time", &[]),
+    ("minimum-time", &[]),
+    ("duration", &["level"]),
+    ("integral", &["from", "to"]),
+    ("squared-integral", &["from", "to"]),
+    ("ratio", &["channel"]),
 ];
 
 fn step() -> Value {

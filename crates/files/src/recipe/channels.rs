@@ -6,6 +6,7 @@ use super::super::keys;
 use super::column::column;
 use super::quantity::{of_member, positive, unit};
 use super::recordings::{RecordingFile, SearchFile};
+use super::waveform::{RecipeFiles, WaveformFile};
 use super::{check_name, steps};
 use gumption_columns::gravity;
 use gumption_columns::recording::{ColumnName, Conversion, Wanted};
@@ -28,21 +29,30 @@ pub(super) struct ChannelFile {
     pub(super) gain: f64,
     pub(super) place: Range<usize>,
     pub(super) step_places: Vec<Range<usize>>,
+    /// The step whose answer is the waveform, if it has one.
+    pub(super) waveform: Option<WaveformFile>,
     column: ColumnName,
     /// The unit of its raw values; 1 of counts.
     raw_unit: Unit,
     /// The unit of its values before the steps.
-    own_unit: Unit,
+    pub(super) own_unit: Unit,
     zero: f64,
     range: Option<[f64; 2]>,
 }
 
-pub(super) fn read(root: &Object<'_>, recordings: &[RecordingFile]) -> Option<Vec<ChannelFile>> {
+pub(super) fn read(
+    root: &Object<'_>,
+    recordings: &[RecordingFile],
+    files: &mut RecipeFiles<'_>,
+) -> Option<Vec<ChannelFile>> {
     let member = root.required("channels")?;
     let object = Object::new(root.log, "`channels`", &member.value, &member.key_span)?;
     refuse_uncertainties_of(root.log, object.members());
-    let read: Vec<Option<ChannelFile>> =
-        object.members().iter().map(|member| channel(root.log, member, recordings)).collect();
+    let read: Vec<Option<ChannelFile>> = object
+        .members()
+        .iter()
+        .map(|member| channel(root.log, member, recordings, files))
+        .collect();
     if read.is_empty() {
         root.log.report(&member.key_span, DiagnosticKind::NoValues { name: "channels".into() });
         return None;
@@ -64,7 +74,12 @@ fn refuse_uncertainties_of(log: &Collector, members: &[Member]) {
     }
 }
 
-fn channel(log: &Collector, member: &Member, recordings: &[RecordingFile]) -> Option<ChannelFile> {
+fn channel(
+    log: &Collector,
+    member: &Member,
+    recordings: &[RecordingFile],
+    files: &mut RecipeFiles<'_>,
+) -> Option<ChannelFile> {
     check_name(log, &member.key, &member.key_span);
     let object = Object::new(log, "a channel", &member.value, &member.key_span)?;
     keys::check(&object, keys::CHANNEL);
@@ -86,7 +101,7 @@ fn channel(log: &Collector, member: &Member, recordings: &[RecordingFile]) -> Op
     let zero = object.number("offset").unwrap_or(0.0);
     let range = range(&object);
     let resolution = resolution(&object, range);
-    let steps = steps::read(&object, own.as_ref()?)?;
+    let steps = steps::read(&object, own.as_ref()?, files)?;
     let (gain, scale_uncertainty) = scale?;
     Some(ChannelFile {
         channel: Channel {
@@ -100,6 +115,7 @@ fn channel(log: &Collector, member: &Member, recordings: &[RecordingFile]) -> Op
         gain,
         place: member.key_span.clone(),
         step_places: steps.places,
+        waveform: steps.waveform,
         column: column?,
         raw_unit: raw?,
         own_unit: own?,

@@ -6,10 +6,12 @@ mod quantity;
 mod recordings;
 mod rows;
 mod steps;
+mod waveform;
 
 use std::ops::Range;
 use std::sync::Arc;
 
+use super::context::Context;
 use super::keys;
 use super::open::{FileKind, check_format, read_root, refuse_other_kind};
 use channels::ChannelFile;
@@ -18,7 +20,7 @@ use gumption_engine::model::formula;
 use gumption_engine::task::Warning;
 use gumption_signal::{
     Amplitude, ChannelRateSearch, ChannelRecording, Frequency, Method, PhaseUnit, RecipeSettings,
-    Refused, TimeBase,
+    Refused, TimeBase, WaveformChannel,
 };
 use gumption_text::json::{Json, Node};
 use gumption_text::object::Object;
@@ -26,6 +28,7 @@ use gumption_text::{Collector, DiagnosticKind, Diagnostics, Folder, SourceText};
 use gumption_units::Unit;
 use gumption_units::nearest;
 use recordings::RecordingFile;
+use waveform::RecipeFiles;
 
 /// The highest multiple of a frequency.
 const MOST_MULTIPLE: u64 = 50;
@@ -67,6 +70,12 @@ pub struct RecipeFile {
     pub frequency: String,
     /// The rows.
     pub rows: Vec<RecipeRow>,
+    /// The channels whose answers are waveforms: those of the recipe, or none.
+    pub waveforms: Vec<WaveformChannel>,
+    /// The digest of each file of responses, by its name.
+    pub digests: Vec<(String, String)>,
+    /// What to bear in mind about the responses.
+    pub warnings: Vec<Warning>,
     /// The file's text.
     pub source: Arc<SourceText>,
     recordings: Vec<RecordingFile>,
@@ -96,9 +105,9 @@ pub struct OpenedRow {
 pub(super) fn read_text(
     name: &str,
     text: &str,
-    folder: Folder<'_>,
+    (context, folder): (Context<'_>, Folder<'_>),
 ) -> Result<RecipeFile, Diagnostics> {
-    read_root(name, text, "a recipe", |root| recipe(&root, folder))
+    read_root(name, text, "a recipe", |root| recipe(&root, context, folder))
 }
 
 /// Whether a text is meant as a recipe.
@@ -111,8 +120,12 @@ pub(super) fn is_meant(root: &Node) -> bool {
 ///
 /// # Errors
 /// All mistakes of the text, or the first of each row's recordings.
-pub(super) fn check_text(name: &str, text: &str, folder: Folder<'_>) -> Result<(), Diagnostics> {
-    let file = read_text(name, text, folder)?;
+pub(super) fn check_text(
+    name: &str,
+    text: &str,
+    (context, folder): (Context<'_>, Folder<'_>),
+) -> Result<(), Diagnostics> {
+    let file = read_text(name, text, (context, folder))?;
     let mut diagnostics = Vec::new();
     for row in 0..file.rows.len() {
         if let Err(found) = file.open(row) {
@@ -122,7 +135,7 @@ pub(super) fn check_text(name: &str, text: &str, folder: Folder<'_>) -> Result<(
     if diagnostics.is_empty() { Ok(()) } else { Err(Diagnostics(diagnostics)) }
 }
 
-fn recipe(root: &Object<'_>, folder: Folder<'_>) -> Option<RecipeFile> {
+fn recipe(root: &Object<'_>, context: Context<'_>, folder: Folder<'_>) -> Option<RecipeFile> {
     if refuse_other_kind(root, FileKind::Recipe) {
         return None;
     }
@@ -132,7 +145,10 @@ fn recipe(root: &Object<'_>, folder: Folder<'_>) -> Option<RecipeFile> {
     root.text("source");
     // what names recordings or channels is held against the names, whatever else is wrong with them
     let recordings = recordings::read(root, folder)?;
-    let channels = channels::read(root, &recordings);
+    let mut files = RecipeFiles { context, folder, read: Vec::new(), warnings: Vec::new() };
+    let channels = channels::read(root, &recordings, &mut files);
+    let has_frequency =
+        channels.as_ref().is_none_or(|all| all.iter().all(|of| of.waveform.is_none()));
     let reference = reference(root);
     let method = named(root, "method", &Method::ALL, Method::name);
     let amplitude = named(root, "amplitude", &Amplitude::ALL, Amplitude::name);
@@ -141,8 +157,10 @@ fn recipe(root: &Object<'_>, folder: Folder<'_>) -> Option<RecipeFile> {
     let harmonics = root.whole("harmonics", 1, MOST_MULTIPLE).unwrap_or(5);
     let trials = root.whole("trials", 0, 1_000_000).unwrap_or(2000);
     let seed = root.whole("seed", 0, u64::MAX).unwrap_or(1);
-    let (rows, conditions, frequency) = rows::read(root, &recordings, method == Some(Method::Fft))?;
+    let of_rows = (method == Some(Method::Fft), has_frequency);
+    let (rows, conditions, frequency) = rows::read(root, &recordings, of_rows)?;
     let channels = channels?;
+    let waveforms = waveform::resolved(root, &channels)?;
     let searches = recordings.iter().enumerate().map(|(number, recording)| {
         recording.search.as_ref().and_then(|search| search.resolved(root.log, number, &channels))
     });
@@ -166,6 +184,13 @@ fn recipe(root: &Object<'_>, folder: Folder<'_>) -> Option<RecipeFile> {
         conditions,
         frequency,
         rows,
+        waveforms,
+        digests: files
+            .read
+            .iter()
+            .map(|(name, bytes)| (name.clone(), gumption_text::bytes::sha256(bytes)))
+            .collect(),
+        warnings: files.warnings,
         source,
         recordings,
         searches,

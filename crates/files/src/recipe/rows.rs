@@ -16,7 +16,11 @@ const MOST_ROWS: usize = 10_000;
 
 type Read = (Vec<RecipeRow>, Vec<RecipeCondition>, String);
 
-pub(super) fn read(root: &Object<'_>, recordings: &[RecordingFile], single: bool) -> Option<Read> {
+pub(super) fn read(
+    root: &Object<'_>,
+    recordings: &[RecordingFile],
+    (single, has_frequency): (bool, bool),
+) -> Option<Read> {
     let general = root.get("frequency").map(|member| (frequencies(root, member), member));
     let name = match root.get("frequency").map(|member| &member.value.value) {
         Some(Json::Object(members)) => members.iter().find(|m| m.key == "name"),
@@ -39,8 +43,15 @@ pub(super) fn read(root: &Object<'_>, recordings: &[RecordingFile], single: bool
         Some(_) => root.list("rows")?,
         None => &[],
     };
-    let reader =
-        RecipeRowsReader { root, recordings, conditions: &conditions, constants, general, single };
+    let reader = RecipeRowsReader {
+        root,
+        recordings,
+        conditions: &conditions,
+        constants,
+        general,
+        single,
+        has_frequency,
+    };
     let rows: Vec<RecipeRow> = match root.get("rows") {
         Some(member) if nodes.is_empty() => {
             root.log.report(&member.key_span, DiagnosticKind::NoValues { name: "rows".into() });
@@ -82,7 +93,10 @@ struct RecipeRowsReader<'a> {
     conditions: &'a [RecipeCondition],
     constants: Vec<Option<f64>>,
     general: Option<(Option<Vec<Frequency>>, &'a Member)>,
+    /// Whether a row has one frequency at most.
     single: bool,
+    /// Whether it has any.
+    has_frequency: bool,
 }
 
 impl RecipeRowsReader<'_> {
@@ -100,8 +114,15 @@ impl RecipeRowsReader<'_> {
         let place = node.map_or(self.root.place().clone(), |node| node.span.clone());
         let own = object.as_ref().and_then(|object| object.get("frequency").map(|m| (object, m)));
         let (frequencies, frequency_place) = match (own, &self.general) {
-            (Some((object, member)), _) => (frequencies(object, member), member.key_span.clone()),
+            (Some((object, member)), _) => {
+                if !self.has_frequency {
+                    let reason = "a row of waveforms has no `frequency`".to_owned();
+                    log.report(&member.key_span, DiagnosticKind::Recipe { reason });
+                }
+                (frequencies(object, member), member.key_span.clone())
+            }
             (None, Some((general, member))) => (general.clone(), member.key_span.clone()),
+            (None, None) if !self.has_frequency => (Some(Vec::new()), place.clone()),
             (None, None) => {
                 let what = if node.is_some() { "a row of a recipe" } else { "a recipe" };
                 log.report(&place, DiagnosticKind::MissingKey { key: "frequency", what });

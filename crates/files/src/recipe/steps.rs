@@ -5,6 +5,7 @@ use std::ops::Range;
 
 use super::super::keys::{self, STEPS};
 use super::quantity::{Quantity, positive, quantity, same_dimension, unit};
+use super::waveform::{self, RecipeFiles, WaveformFile};
 use gumption_signal::{Band, Butterworth, ChannelStep, Measured, Response, ResponsePoint};
 use gumption_text::DiagnosticKind;
 use gumption_text::json::{Json, Member, Node};
@@ -89,9 +90,7 @@ fn derivative(of: &Object<'_>, of_values: &Unit, integral: bool) -> Option<(Chan
     };
     let times = i32::try_from(times).ok()?;
     let order = if integral { -times } else { times };
-    let text = of_values.text();
-    let whole =
-        if text.chars().all(char::is_alphanumeric) { text.to_owned() } else { format!("({text})") };
+    let whole = whole_text(of_values);
     let text = match order {
         1 => format!("{whole}/s"),
         -1 => format!("{whole}*s"),
@@ -102,9 +101,15 @@ fn derivative(of: &Object<'_>, of_values: &Unit, integral: bool) -> Option<(Chan
     Some((ChannelStep::Derivative { order, highest: highest(of)?, factor }, after))
 }
 
+/// The text of a unit such that it can be a factor.
+pub(super) fn whole_text(unit: &Unit) -> String {
+    let text = unit.text();
+    if text.chars().all(char::is_alphanumeric) { text.to_owned() } else { format!("({text})") }
+}
+
 /// The unit of the answer, that of the step's key `unit` or else `natural`, and how many of it are
 /// one of `natural`.
-fn converted(of: &Object<'_>, natural: &str) -> Option<(f64, Unit)> {
+pub(super) fn converted(of: &Object<'_>, natural: &str) -> Option<(f64, Unit)> {
     let natural = Unit::parse(natural).ok()?;
     let Some(member) = of.get("unit") else { return Some((1.0, natural)) };
     let wanted = unit(of, "unit", "1")?;
@@ -140,7 +145,7 @@ fn rotation(of: &Object<'_>, of_values: &Unit, radial: bool) -> Option<(ChannelS
     Some((step, after))
 }
 
-fn measured(of: &Quantity) -> Measured {
+pub(super) fn measured(of: &Quantity) -> Measured {
     Measured {
         value: of.si(),
         standard_uncertainty: of.si_uncertainty(),
@@ -238,11 +243,18 @@ pub(super) struct Steps {
     pub(super) places: Vec<Range<usize>>,
     /// The unit of values after them.
     pub(super) unit: Unit,
+    /// The last one, if the answer is the waveform.
+    pub(super) waveform: Option<WaveformFile>,
 }
 
 /// The steps of a channel, in order, whose values are in `unit`; nothing after a mistake.
-pub(super) fn read(channel: &Object<'_>, unit: &Unit) -> Option<Steps> {
-    let mut read = Steps { steps: Vec::new(), places: Vec::new(), unit: unit.clone() };
+pub(super) fn read(
+    channel: &Object<'_>,
+    unit: &Unit,
+    files: &mut RecipeFiles<'_>,
+) -> Option<Steps> {
+    let mut read =
+        Steps { steps: Vec::new(), places: Vec::new(), unit: unit.clone(), waveform: None };
     if channel.get("steps").is_none() {
         return Some(read);
     }
@@ -268,6 +280,19 @@ pub(super) fn read(channel: &Object<'_>, unit: &Unit) -> Option<Steps> {
             return None;
         };
         keys::check_names(&object, &[&["step"], *keys].concat());
+        if read.waveform.is_some() {
+            let reason = "`waveform` is the last step: its answer is the signal itself".to_owned();
+            channel.log.report(&node.span, DiagnosticKind::Recipe { reason });
+            return None;
+        }
+        if name == "waveform" {
+            waveform::check_before(&object, &read.steps)?;
+            let (found, unit) = waveform::read(&object, &read.unit, files)?;
+            read.waveform = Some(found);
+            read.places.push(node.span.clone());
+            read.unit = unit;
+            continue;
+        }
         let (step, unit) = step(name, &object, &read.unit)?;
         read.steps.push(step);
         read.places.push(node.span.clone());

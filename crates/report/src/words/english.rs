@@ -372,6 +372,16 @@ const SIGNALS: Sentences = &[
         decide (coefficient {coefficient} at lag 1); {way}"),
     ("short-record.before-steps", "`{name}`: before the steps the residuals may be correlated; the record \
         is too short to decide (coefficient {coefficient} at lag 1); {way}"),
+    ("waveform-ends-differ", "`{name}`: first and last sample of the record differ by {times} times their noise; the \
+        correction takes the record as one period, so that values near the ends are wrong: record until the signal is \
+        back where it began"),
+    ("waveform-methods-differ", "`{name}`: the standard deviation of the trials' values is {drawn} in the mean, that \
+        by the law of propagation {stated}: the correction is not linear within its uncertainties, and the trials' are \
+        the ones to state"),
+    ("waveform-quantity-missing", "`{name}`: {missing} of {trials} trials have no {figure}"),
+    ("waveform-quantity-methods-differ", "`{name}`: the standard deviation of {figure} in the trials is {drawn}, that by \
+        the law of propagation {stated}: it is not linear within its uncertainty (a greatest value picks the noise that \
+        lifts it); a low-pass with a lower cut-off helps"),
     ("found-tone", "`{name}`: something oscillates that the recipe does not name, at {tones}; it is fitted \
         together with the named frequencies and counts as noise in the signal-to-noise ratio"),
     ("found-drift", "`{name}`: the level drifts by {range} over the record; a polynomial of degree {degree} is \

@@ -411,6 +411,16 @@ const SIGNALS: Sentences = &[
     ("short-record.before-steps", "`{name}`: Vor den Schritten sind die Residuen vielleicht korreliert; \
         die Aufzeichnung ist zu kurz, um das zu entscheiden (Koeffizient {coefficient} bei der \
         Verschiebung 1); {way}"),
+    ("waveform-ends-differ", "`{name}`: Erster und letzter Wert der Aufzeichnung unterscheiden sich um das {times}-fache \
+        ihres Rauschens; die Korrektur nimmt die Aufzeichnung als eine Periode, sodass Werte nahe den Enden falsch sind: \
+        aufzeichnen, bis das Signal wieder dort ist, wo es begann"),
+    ("waveform-methods-differ", "`{name}`: Die Standardabweichung der Werte in den Versuchen ist im Mittel {drawn}, die \
+        nach dem Fortpflanzungsgesetz {stated}: Die Korrektur ist innerhalb ihrer Unsicherheiten nicht linear, und die \
+        der Versuche ist anzugeben"),
+    ("waveform-quantity-missing", "`{name}`: {missing} von {trials} Versuchen haben kein {figure}"),
+    ("waveform-quantity-methods-differ", "`{name}`: Die Standardabweichung von {figure} in den Versuchen ist {drawn}, die \
+        nach dem Fortpflanzungsgesetz {stated}: Die Größe ist innerhalb ihrer Unsicherheit nicht linear (ein größter Wert \
+        wählt das Rauschen, das ihn hebt); ein Tiefpass mit niedrigerer Grenzfrequenz hilft"),
     ("found-tone", "`{name}`: Etwas schwingt, das das Rezept nicht nennt, bei {tones}; es wird zusammen mit \
         den genannten Frequenzen angepasst und zählt im Signal-Rausch-Verhältnis als Rauschen"),
     ("found-drift", "`{name}`: Der Pegel driftet über die Aufzeichnung um {range}; ein Polynom vom Grad \

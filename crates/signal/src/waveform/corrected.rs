@@ -35,8 +35,10 @@ pub struct WaveformStep {
     pub delay: Measured,
     /// The relative standard uncertainty of the scale.
     pub of_scale: f64,
-    /// The figures that are asked for.
-    pub quantities: Vec<WaveformQuantity>,
+    /// The relative standard uncertainty of the sampling rate.
+    pub of_rate: f64,
+    /// The figures that are asked for, with their names.
+    pub quantities: Vec<(String, WaveformQuantity)>,
 }
 
 /// Where a standard uncertainty of a waveform is from.
@@ -54,6 +56,8 @@ pub enum WaveformSource {
     Scale,
     /// What the low-pass takes away.
     Truncation,
+    /// The sampling rate.
+    SamplingRate,
     /// The other channel of a ratio.
     OtherChannel,
 }
@@ -87,6 +91,7 @@ impl WaveformSource {
             Self::Delay => "delay",
             Self::Scale => "scale",
             Self::Truncation => "truncation",
+            Self::SamplingRate => "sampling rate",
             Self::OtherChannel => "other channel",
         }
     }
@@ -121,6 +126,9 @@ pub fn corrected(
             "a record of {} samples has too few for a spectrum; {FEWEST} at least",
             signal.values.len()
         ));
+    }
+    if let Some(at) = signal.values.iter().position(|value| !value.is_finite()) {
+        return Err(format!("sample {} is no finite number", at + 1));
     }
     let lines = Lines::of(signal);
     let at = step.response.at(&lines)?;
@@ -197,7 +205,7 @@ pub fn corrected(
         variances.iter().map(|variance| variance.sqrt()).collect();
     let mut quantities = Vec::new();
     let mut half_widths = Vec::new();
-    for quantity in &step.quantities {
+    for (name, quantity) in &step.quantities {
         let of = quantity.of(&signal_found)?;
         let mut sensitivity = vec![0.0; lines.samples];
         of.coefficients.iter().for_each(|(at, g)| sensitivity[*at] += g);
@@ -213,8 +221,13 @@ pub fn corrected(
         if half_width > 0.0 {
             contributions.push((WaveformSource::Truncation, half_width / 3f64.sqrt()));
         }
+        let by_rate = of.per_rate.abs() * step.of_rate;
+        if by_rate > 0.0 {
+            contributions.push((WaveformSource::SamplingRate, by_rate));
+        }
         half_widths.push(half_width);
         quantities.push(QuantityFound {
+            name: name.clone(),
             quantity: *quantity,
             value: of.value,
             contributions,

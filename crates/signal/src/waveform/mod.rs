@@ -18,21 +18,25 @@
 mod corrected;
 mod errors;
 mod low_pass;
+mod notes;
 mod quantity;
 mod quiet;
 mod response;
+mod row;
 mod spectrum;
 mod trials;
 mod truncation;
 
 pub use corrected::{Waveform, WaveformSource, WaveformStep, corrected};
 pub use low_pass::{Cutoff, LowPass};
-pub use quantity::{QuantityFound, WaveformQuantity, ratio};
+pub use notes::notes;
+pub use quantity::{QuantityFound, WaveformQuantity};
 pub use quiet::{NoiseColour, QuietPart};
 pub use response::{
     Beyond, CalibratedResponse, Coordinates, Errors, LineResponse, ModelledResponse, PointError,
     ResponseModel,
 };
+pub use row::{WaveformChannel, waveforms};
 pub use trials::WaveformTrials;
 pub use truncation::Truncation;
 

@@ -41,6 +41,8 @@ pub enum WaveformQuantity {
 /// A figure with its budget.
 #[derive(Clone, Debug, PartialEq)]
 pub struct QuantityFound {
+    /// Its name.
+    pub name: String,
     /// Which.
     pub quantity: WaveformQuantity,
     /// Its value.
@@ -58,6 +60,8 @@ pub struct QuantityFound {
 pub(super) struct Sensitive {
     pub(super) value: f64,
     pub(super) coefficients: Vec<(usize, f64)>,
+    /// Its change by a relative change of the sampling rate.
+    pub(super) per_rate: f64,
 }
 
 impl WaveformQuantity {
@@ -100,12 +104,13 @@ impl QuantityFound {
 }
 
 /// The ratio of a channel's greatest value to another's, whose errors are independent of its own.
-pub fn ratio(of: &QuantityFound, to: &QuantityFound, channel: usize) -> QuantityFound {
+pub(super) fn ratio(of: &QuantityFound, to: &QuantityFound, channel: usize) -> QuantityFound {
     let value = of.value / to.value;
     let own = of.contributions.iter().map(|(source, u)| (*source, (u / to.value).abs()));
     let other = to.standard_uncertainty() * (value / to.value).abs();
     let drawn: Vec<f64> = of.drawn.iter().zip(&to.drawn).map(|(own, other)| own / other).collect();
     QuantityFound {
+        name: of.name.clone(),
         quantity: WaveformQuantity::Ratio { channel },
         value,
         contributions: own.chain([(WaveformSource::OtherChannel, other)]).collect(),
@@ -141,10 +146,11 @@ fn vertex(signal: &Signal, sign: f64) -> Result<[Sensitive; 2], String> {
         .map(|g| if flat { 0.0 } else { -g / curvature / signal.rate });
     let coefficients = |of: [f64; 3]| (place - 1..=place + 1).zip(of).collect();
     Ok([
-        Sensitive { value, coefficients: coefficients(weights) },
+        Sensitive { value, coefficients: coefficients(weights), per_rate: 0.0 },
         Sensitive {
             value: signal.instant(place as f64 + shift),
             coefficients: coefficients(of_shift),
+            per_rate: -(place as f64 + shift) / signal.rate,
         },
     ])
 }
@@ -164,7 +170,7 @@ fn duration(signal: &Signal, level: f64) -> Result<Sensitive, String> {
         (0..middle).rev().find(|at| values[*at] <= height).ok_or_else(|| missing("before"))?;
     let after = (middle..values.len()).find(|at| values[*at] <= height);
     let after = after.ok_or_else(|| missing("after"))?;
-    let mut found = Sensitive { value: 0.0, coefficients: Vec::new() };
+    let mut found = Sensitive { value: 0.0, coefficients: Vec::new(), per_rate: 0.0 };
     for (sign, from) in [(-1.0, before), (1.0, after - 1)] {
         let [a, b] = [values[from], values[from + 1]];
         let share = (height - a) / (b - a);
@@ -174,6 +180,7 @@ fn duration(signal: &Signal, level: f64) -> Result<Sensitive, String> {
         found.coefficients.extend([(from, -per * (1.0 - share)), (from + 1, -per * share)]);
         found.coefficients.extend(peak.coefficients.iter().map(|(at, g)| (*at, per * level * g)));
     }
+    found.per_rate = -found.value;
     Ok(found)
 }
 
@@ -225,7 +232,8 @@ fn integral(
         let x = value(*at);
         if squared { x * x * w } else { x * w }
     });
-    Ok(Sensitive { value: sum.sum(), coefficients: weights.iter().map(of).collect() })
+    let value: f64 = sum.sum();
+    Ok(Sensitive { value, coefficients: weights.iter().map(of).collect(), per_rate: -value })
 }
 
 #[cfg(test)]

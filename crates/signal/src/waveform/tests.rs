@@ -78,6 +78,7 @@ fn step(response: LineResponse) -> WaveformStep {
             degrees_of_freedom: f64::INFINITY,
         },
         of_scale: 0.0,
+        of_rate: 0.0,
         quantities: Vec::new(),
     }
 }
@@ -138,7 +139,7 @@ fn standard_uncertainties_are_right() {
                 degrees_of_freedom: f64::INFINITY,
             },
             of_scale,
-            quantities: quantities.clone(),
+            quantities: quantities.iter().map(|of| (of.name().to_owned(), *of)).collect(),
             ..step(modelled(TRUTH, u))
         };
         let trials = if record == 0 { 2000 } else { 0 };

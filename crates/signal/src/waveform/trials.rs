@@ -109,8 +109,9 @@ fn one(
         *value *= (record[line] + noise) * passed[line] * turned * scale;
     }
     let values = lines.inverse(inverse);
-    let mut signal = Signal { values, rate: *rate, start: *start };
-    let figures = step.quantities.iter().zip(half_widths).map(|(quantity, half_width)| {
+    let rate = rate * (1.0 + step.of_rate * normals.next());
+    let mut signal = Signal { values, rate, start: *start };
+    let figures = step.quantities.iter().zip(half_widths).map(|((_, quantity), half_width)| {
         quantity.of(&signal).map_or(f64::NAN, |of| of.value + place * half_width)
     });
     let figures = figures.collect();
