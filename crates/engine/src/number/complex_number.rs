@@ -120,6 +120,10 @@ impl<T: Number> Number for ComplexNumber<T> {
         Self::real(T::routine(routine, &operands))
     }
 
+    fn complex(re: Self, im: Self) -> Self {
+        Self::new(re.re, im.re)
+    }
+
     fn real_part(self) -> Self {
         Self::real(self.re)
     }

@@ -203,6 +203,11 @@ pub trait Number:
         }
     }
 
+    /// The complex number with these real parts; NaN where numbers are real.
+    fn complex(_re: Self, _im: Self) -> Self {
+        Self::constant(f64::NAN)
+    }
+
     /// The real part: the number itself unless it is complex.
     fn real_part(self) -> Self {
         self

@@ -14,7 +14,8 @@ pub enum Curve {
         /// Where the powers count from.
         origin: f64,
     },
-    /// A program whose variables are x, then the parameters, and whose output is y.
+    /// A program whose variables are x, then the parameters, and whose output is y; the outputs of
+    /// a complex curve are the real and the imaginary part.
     Program(Program),
 }
 
@@ -44,7 +45,20 @@ impl Curve {
         }
     }
 
-    /// The curve's value at x.
+    /// Whether its values are complex.
+    pub fn is_complex(&self) -> bool {
+        matches!(self, Self::Program(program) if program.outputs() == 2)
+    }
+
+    /// Real and imaginary part of a complex curve at x.
+    pub fn parts<T: Number>(&self, x: T, parameters: &[T]) -> [T; 2] {
+        let Self::Program(program) = self else { return [T::constant(f64::NAN); 2] };
+        let variables: Vec<T> = std::iter::once(x).chain(parameters.iter().copied()).collect();
+        let mut outputs = program.evaluate(&variables).into_iter();
+        [(); 2].map(|()| outputs.next().unwrap_or_else(|| T::constant(f64::NAN)))
+    }
+
+    /// The curve's value at x; NaN for a complex curve.
     pub fn value<T: Number>(&self, x: T, parameters: &[T]) -> T {
         match self {
             Self::Polynomial { origin, .. } => {
@@ -53,6 +67,7 @@ impl Curve {
                 let highest = powers.next().unwrap_or_else(|| T::constant(0.0));
                 powers.fold(highest, |sum, parameter| sum * x + parameter)
             }
+            Self::Program(_) if self.is_complex() => T::constant(f64::NAN),
             Self::Program(program) => {
                 let variables: Vec<T> =
                     std::iter::once(x).chain(parameters.iter().copied()).collect();
@@ -127,16 +142,29 @@ impl<'p> Differentiated<'p> {
 
     /// The value at x, the derivative with respect to x, and those with respect to the parameters.
     pub(super) fn at(&mut self, x: f64, parameters: &[f64], each: &mut [f64]) -> (f64, f64) {
+        let [(value, slope)] = self.outputs(x, parameters, [each]);
+        (value, slope)
+    }
+
+    /// The same for each output; NaN if there is another number of them.
+    pub(super) fn outputs<const N: usize>(
+        &mut self,
+        x: f64,
+        parameters: &[f64],
+        mut each: [&mut [f64]; N],
+    ) -> [(f64, f64); N] {
         if let Some((first, rest)) = self.variables.split_first_mut() {
             *first = x;
             rest.copy_from_slice(parameters);
         }
-        let (mut value, mut slope) = (f64::NAN, f64::NAN);
-        let Some(&output) = self.program.outputs.first() else { return (value, slope) };
+        let mut found = [(f64::NAN, f64::NAN); N];
+        if self.program.outputs.len() != N {
+            return found;
+        }
         for first in (0..self.variables.len()).step_by(AT_A_TIME) {
             self.values.clear();
             for node in &self.program.nodes {
-                let found = match *node {
+                let value = match *node {
                     Node::Variable(v) => {
                         let x = self.variables.get(v).copied().unwrap_or(0.0);
                         match v.checked_sub(first) {
@@ -156,21 +184,24 @@ impl<'p> Differentiated<'p> {
                         Dual::routine(&call.routine, &operands)
                     }
                 };
-                self.values.push(found);
+                self.values.push(value);
             }
-            let found = self.values[output];
-            value = found.value;
-            for (index, derivative) in found.gradient.into_iter().enumerate() {
-                match (first + index).checked_sub(1) {
-                    None => slope = derivative,
-                    Some(parameter) => {
-                        if let Some(place) = each.get_mut(parameter) {
-                            *place = derivative;
+            let outputs = self.program.outputs.iter().zip(&mut found).zip(&mut each);
+            for ((&output, (value, slope)), each) in outputs {
+                let dual = self.values[output];
+                *value = dual.value;
+                for (index, derivative) in dual.gradient.into_iter().enumerate() {
+                    match (first + index).checked_sub(1) {
+                        None => *slope = derivative,
+                        Some(parameter) => {
+                            if let Some(place) = each.get_mut(parameter) {
+                                *place = derivative;
+                            }
                         }
                     }
                 }
             }
         }
-        (value, slope)
+        found
     }
 }

@@ -64,6 +64,9 @@ pub enum RegressionError {
         points: usize,
         /// The number of parameters of the curve.
         parameters: usize,
+        /// The smallest number of points that can, with the uncertainties estimated from the
+        /// residuals if none are known.
+        needed: usize,
         /// Whether the uncertainties are also estimated from the residuals.
         estimated: bool,
     },
@@ -93,6 +96,24 @@ pub enum RegressionError {
     },
     /// The points lie exactly on the curve, so that their uncertainty cannot be estimated.
     NoScatter,
+    /// Either the curve or the ordinates are complex, and the other side is real.
+    Complexity {
+        /// Whether the curve is complex.
+        curve: bool,
+    },
+}
+
+impl RegressionError {
+    /// The same with another index of the point.
+    pub(super) fn at_point(mut self, index: impl Fn(usize) -> usize) -> Self {
+        if let Self::NotFinite { point, .. }
+        | Self::NoVariance { point, .. }
+        | Self::NotDefinite { point, .. } = &mut self
+        {
+            *point = index(*point);
+        }
+        self
+    }
 }
 
 impl fmt::Display for RegressionError {
@@ -119,14 +140,13 @@ impl fmt::Display for RegressionError {
                  known exactly, or better, from those before it",
                 point + 1
             ),
-            Self::TooFewPoints { points, parameters, estimated: false } => {
+            Self::TooFewPoints { points, parameters, estimated: false, .. } => {
                 write!(f, "{points} points cannot determine {parameters} parameters")
             }
-            Self::TooFewPoints { points, parameters, estimated: true } => write!(
+            Self::TooFewPoints { points, parameters, needed, estimated: true } => write!(
                 f,
                 "{points} points cannot determine {parameters} parameters and the scatter about \
-                 the curve; state the standard uncertainties of y, or take {} points or more",
-                parameters + 1
+                 the curve; state the standard uncertainties of y, or take {needed} points or more"
             ),
             Self::TooFewAbscissae { different, parameters } => write!(
                 f,
@@ -152,6 +172,8 @@ impl fmt::Display for RegressionError {
                 "no smallest sum of squares was found in {steps} steps; other values of `start` \
                  may help"
             ),
+            Self::Complexity { curve: true } => f.write_str("the curve is complex, but y is real"),
+            Self::Complexity { curve: false } => f.write_str("y is complex, but the curve is real"),
             Self::NoScatter => f.write_str(
                 "the points lie exactly on the curve, so that their scatter gives no uncertainty; \
                  state the standard uncertainties of y",

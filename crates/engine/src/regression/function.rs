@@ -64,6 +64,9 @@ impl CurveFunction {
         let (value, unit) = if inverse {
             let sign = self.fit.direction().unwrap_or(f64::NAN);
             (self.fit.curve.inverse(argument, &own, self.fit.points.range(), sign), &self.x)
+        } else if self.fit.curve.is_complex() {
+            let [re, im] = self.fit.curve.parts(argument, &own);
+            (T::complex(re, im), &self.y)
         } else {
             (self.fit.curve.value(argument, &own), &self.y)
         };

@@ -4,7 +4,8 @@
 //! All of them are one problem: find the parameters and the true abscissae that minimize the
 //! weighted sum of squares of all residuals, by the Gauss-Newton method with the abscissae
 //! eliminated. A polynomial is fitted in Chebyshev polynomials over the range of its abscissae,
-//! which keeps the digits that its power coefficients lose; the covariance matrix is converted.
+//! which keeps the digits that its power coefficients lose; the covariance matrix is converted. A
+//! complex point is two real rows of the same least squares.
 //!
 //! ```
 //! use std::sync::Arc;
@@ -23,6 +24,7 @@
 //! ```
 
 mod chebyshev;
+mod complex;
 mod curve;
 mod degree;
 mod error;
@@ -35,6 +37,7 @@ mod solver;
 #[cfg(test)]
 mod tests;
 
+pub use complex::{ComplexForm, ComplexResidual, ComplexSpread, PolarValue};
 pub use curve::Curve;
 pub use degree::{DegreeChoice, choose_degree};
 pub use error::{Coordinate, RegressionError};

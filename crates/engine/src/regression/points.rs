@@ -42,6 +42,9 @@ pub struct Points {
     /// Whether the stated uncertainties are only relative: the residuals then determine their
     /// common factor. It is true if nothing is stated for the ordinates.
     pub estimated: bool,
+    /// If the ordinates are complex, the factors of the real and the imaginary part of which each
+    /// row of x and y is the sum ([`Points::complex`]); else empty.
+    pub(super) parts: Vec<[f64; 2]>,
 }
 
 /// The covariances of all coordinates, as the solver needs them.
@@ -126,7 +129,7 @@ impl Points {
     /// Points without stated uncertainties.
     pub fn new(x: Vec<f64>, y: Vec<f64>) -> Self {
         let (of_x, of_y) = (Spread::None, Spread::None);
-        Self { x, y, of_x, of_y, cross: Cross::None, estimated: true }
+        Self { x, y, of_x, of_y, cross: Cross::None, estimated: true, parts: Vec::new() }
     }
 
     /// The same with stated uncertainties of the ordinates.
@@ -154,7 +157,7 @@ impl Points {
         Self { estimated: true, ..self }
     }
 
-    /// Their number.
+    /// Number of rows: of points, or twice as many if they are complex.
     pub fn len(&self) -> usize {
         self.x.len()
     }
@@ -187,6 +190,10 @@ impl Points {
 
     /// Checks that the points can be fitted, and decomposes their covariances.
     pub(super) fn noise(&self) -> Result<Noise, RegressionError> {
+        self.noise_of_rows().map_err(|error| error.at_point(|row| row % self.count().max(1)))
+    }
+
+    fn noise_of_rows(&self) -> Result<Noise, RegressionError> {
         let n = self.len();
         for (coordinate, values) in [(Coordinate::X, &self.x), (Coordinate::Y, &self.y)] {
             if let Some(point) = values.iter().position(|value| !value.is_finite()) {

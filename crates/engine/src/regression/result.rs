@@ -32,13 +32,14 @@ pub struct Regression {
     /// The parameters.
     pub estimates: Vec<f64>,
     /// Their covariance matrix, row by row.
-    covariance: Vec<f64>,
+    pub(super) covariance: Vec<f64>,
     /// The same in the basis of the fit.
     pub(super) inner: Inner,
     /// The weighted sum of squares of the residuals; with unit weights if no uncertainties are
     /// stated.
     pub chi2: f64,
-    /// Degrees of freedom: number of points minus number of parameters.
+    /// Degrees of freedom: number of points, of complex ones twice their number, minus number of
+    /// parameters.
     pub dof: usize,
     /// The common factor of the stated standard uncertainties from the residuals, if it is used;
     /// the standard deviation of the residuals if none are stated.
@@ -80,11 +81,16 @@ impl Regression {
         start: &[f64],
     ) -> Result<Self, RegressionError> {
         let (count, found) = (curve.parameters(), points.len());
-        let estimated = points.estimated;
-        if found < count + usize::from(estimated) {
+        let (estimated, is_complex) = (points.estimated, curve.is_complex());
+        if is_complex != points.is_complex() {
+            return Err(RegressionError::Complexity { curve: is_complex });
+        }
+        let needed = count + usize::from(estimated);
+        if found < needed {
             return Err(RegressionError::TooFewPoints {
-                points: found,
+                points: points.count(),
                 parameters: count,
+                needed: needed.div_ceil(if is_complex { 2 } else { 1 }),
                 estimated,
             });
         }
@@ -97,7 +103,7 @@ impl Regression {
         let mut different = points.x.clone();
         ascending(&mut different);
         different.dedup();
-        if different.len() < count {
+        if different.len() < count && !is_complex {
             let different = different.len();
             return Err(RegressionError::TooFewAbscissae { different, parameters: count });
         }
@@ -106,7 +112,7 @@ impl Regression {
             Curve::Polynomial { .. } => Some(Chebyshev::over(points.range(), count)),
             Curve::Program(_) => None,
         };
-        let mut solver = Solver::new(&noise, basis_of(curve, basis), count, estimated);
+        let mut solver = Solver::new(&noise, basis_of(curve, basis), count, points);
         if basis.is_none() {
             search(&mut solver, curve, points, start)?;
         }
@@ -202,13 +208,14 @@ impl Regression {
         tested.then(|| 2.0 * special::gamma::quantile(0.95, 0.5 * self.dof as f64))
     }
 
-    /// Ordinates minus the curve at the stated abscissae.
+    /// Ordinates minus the curve at the stated abscissae; NaN for a complex curve
+    /// ([`Regression::complex_residuals`]).
     pub fn residuals(&self) -> Vec<f64> {
         let points = self.points.x.iter().zip(&self.points.y);
         points.map(|(x, y)| y - self.at(*x)).collect()
     }
 
-    /// The curve at x.
+    /// The curve at x; NaN for a complex curve ([`Regression::complex_value`]).
     pub fn at(&self, x: f64) -> f64 {
         self.inner_at(x).0
     }
@@ -287,7 +294,7 @@ impl Regression {
     /// The working memory for fits to other points with the same uncertainty.
     pub(super) fn solver(&self) -> Solver<'_> {
         let basis = basis_of(&self.curve, self.inner.basis);
-        Solver::new(&self.noise, basis, self.count(), self.points.estimated)
+        Solver::new(&self.noise, basis, self.count(), &self.points)
     }
 
     /// Converts parameters from the basis of the fit to those of the curve.
@@ -334,7 +341,7 @@ fn search(
     let y: Vec<f64> = variances.map_while(|variance| variance).collect();
     let independent = Noise::Single { x: Vec::new(), y, xy: Vec::new() };
     let basis = basis_of(curve, None);
-    let mut first = Solver::new(&independent, basis, curve.parameters(), points.estimated);
+    let mut first = Solver::new(&independent, basis, curve.parameters(), points);
     for (parameter, start) in first.parameters.iter_mut().zip(start) {
         *parameter = *start;
     }
@@ -344,7 +351,7 @@ fn search(
 }
 
 /// A square matrix times a vector.
-fn product(matrix: &[f64], vector: &[f64]) -> Vec<f64> {
+pub(super) fn product(matrix: &[f64], vector: &[f64]) -> Vec<f64> {
     let rows = matrix.chunks_exact(vector.len().max(1));
     rows.map(|row| crate::linalg::dot(row, vector)).collect()
 }

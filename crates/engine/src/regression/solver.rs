@@ -12,7 +12,7 @@ use super::chebyshev::Chebyshev;
 use super::curve::Differentiated;
 use super::error::RegressionError;
 use super::least_squares::{self, Solution};
-use super::points::{Noise, Root};
+use super::points::{Noise, Points, Root};
 
 /// The basis of the parameters.
 #[derive(Clone, Debug)]
@@ -43,6 +43,8 @@ pub(super) struct Solver<'p> {
     count: usize,
     /// Whether uncertainties are only relative.
     estimated: bool,
+    /// Of complex points, the factors of both parts in each row.
+    parts: &'p [[f64; 2]],
     /// The true abscissae.
     abscissae: Vec<f64>,
     /// The parameters.
@@ -56,17 +58,24 @@ pub(super) struct Solver<'p> {
     misfits: Vec<f64>,
     white_misfits: Vec<f64>,
     slopes: Vec<f64>,
-    each: Vec<f64>,
+    /// Derivatives at a point, of the real part first.
+    each: [Vec<f64>; 2],
     root: Option<Root>,
 }
 
 impl<'p> Solver<'p> {
-    pub(super) fn new(noise: &'p Noise, basis: Basis<'p>, count: usize, estimated: bool) -> Self {
+    pub(super) fn new(
+        noise: &'p Noise,
+        basis: Basis<'p>,
+        count: usize,
+        points: &'p Points,
+    ) -> Self {
         Self {
             noise,
             basis,
             count,
-            estimated,
+            estimated: points.estimated,
+            parts: &points.parts,
             abscissae: Vec::new(),
             parameters: vec![0.0; count],
             solution: Solution::default(),
@@ -75,7 +84,7 @@ impl<'p> Solver<'p> {
             misfits: Vec::new(),
             white_misfits: Vec::new(),
             slopes: Vec::new(),
-            each: vec![0.0; count],
+            each: [vec![0.0; count], vec![0.0; count]],
             root: None,
         }
     }
@@ -174,19 +183,48 @@ impl<'p> Solver<'p> {
         self.misfits.resize(n, 0.0);
         self.slopes.resize(n, 0.0);
         self.derivatives.resize(n * self.count, 0.0);
+        if !self.parts.is_empty() {
+            return self.linearize_parts(y);
+        }
         for point in 0..n {
-            let (at, parameters, each) = (self.abscissae[point], &self.parameters, &mut self.each);
+            let (at, parameters) = (self.abscissae[point], &self.parameters);
+            let [each, _] = &mut self.each;
             let (value, slope) = match &mut self.basis {
                 Basis::Chebyshev(basis) => basis.at(at, parameters, each),
                 Basis::Program(program) => program.at(at, parameters, each),
             };
-            if !(value.is_finite() && self.each.iter().all(|d| d.is_finite())) {
+            if !(value.is_finite() && each.iter().all(|d| d.is_finite())) {
                 return Err(RegressionError::Undefined { point });
             }
             self.misfits[point] = y[point] - value - slope * (x[point] - at);
             self.slopes[point] = slope;
-            for (k, derivative) in self.each.iter().enumerate() {
+            for (k, derivative) in each.iter().enumerate() {
                 self.derivatives[k * n + point] = *derivative;
+            }
+        }
+        Ok(())
+    }
+
+    /// The same of complex points with exact abscissae: both rows of a point from both parts of the
+    /// curve.
+    fn linearize_parts(&mut self, y: &[f64]) -> Result<(), RegressionError> {
+        let (rows, points) = (y.len(), y.len() / 2);
+        for point in 0..points {
+            let (at, [re, im]) = (self.abscissae[point], &mut self.each);
+            let values = match &mut self.basis {
+                Basis::Chebyshev(_) => [(f64::NAN, f64::NAN); 2],
+                Basis::Program(program) => program.outputs(at, &self.parameters, [re, im]),
+            };
+            let values = values.map(|(value, _)| value);
+            if !values.iter().chain(&*re).chain(&*im).all(|value| value.is_finite()) {
+                return Err(RegressionError::Undefined { point });
+            }
+            for row in [point, points + point] {
+                let [of_re, of_im] = self.parts[row];
+                self.misfits[row] = y[row] - of_re * values[0] - of_im * values[1];
+                for (k, (re, im)) in re.iter().zip(&*im).enumerate() {
+                    self.derivatives[k * rows + row] = of_re * re + of_im * im;
+                }
             }
         }
         Ok(())

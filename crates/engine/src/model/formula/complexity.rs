@@ -72,11 +72,11 @@ pub(super) fn complexity(text: &str, tree: &Tree, scope: &Scope) -> (bool, Vec<F
                     }
                 }
             }
-            NodeKind::Curve { argument, .. } => {
+            NodeKind::Curve { curve, argument, .. } => {
                 if is(argument) {
                     errors.push(refused("a calibration function", *argument));
                 }
-                false
+                curve.fit.is_complex()
             }
             _ => false,
         };

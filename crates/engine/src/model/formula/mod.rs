@@ -179,9 +179,9 @@ impl Formula {
         self.checked(scope, true)
     }
 
-    /// Whether the value is complex, by the names that are.
+    /// Whether the value is complex, by the names and the calibration functions that are.
     pub fn is_complex(&self, scope: &Scope) -> bool {
-        scope.has_complex() && complexity::complexity(&self.text, &self.tree, scope).0
+        self.uses_complex(scope) && complexity::complexity(&self.text, &self.tree, scope).0
     }
 
     /// Checks names and calls but not dimensions, for empirical formulas. The result's dimension is
@@ -327,10 +327,15 @@ impl Formula {
         })
     }
 
+    /// Whether there are complex names, or calibration functions with complex values.
+    fn uses_complex(&self, scope: &Scope) -> bool {
+        scope.has_complex() || self.curve_calls().any(|(curve, _)| curve.fit.is_complex())
+    }
+
     fn checked(&self, scope: &Scope, units: bool) -> Result<Typing, Vec<FormulaError>> {
         let dimension::Checked { typings, constants, mut errors } =
             dimension::check(&self.text, &self.tree, scope, units);
-        if scope.has_complex() {
+        if self.uses_complex(scope) {
             errors.extend(complexity::complexity(&self.text, &self.tree, scope).1);
         }
         if !units {

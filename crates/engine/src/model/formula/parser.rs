@@ -516,6 +516,13 @@ impl Parser<'_> {
         if self.token.kind != TokenKind::Comma {
             return Err(self.unexpected("`,` and the value of y"));
         }
+        if curve.fit.is_complex() {
+            let reason = format!(
+                "`{name}` is complex and has no inverse: a real x cannot give every value; fit a part \
+                 of it as a real form, such as its modulus"
+            );
+            return Err(FormulaError::Curve { reason, span });
+        }
         if let Err(at) = curve.fit.direction() {
             let reason = format!(
                 "`{name}` turns at about x = {}{}, so that some values of y belong to two x; fit the \
