@@ -196,7 +196,19 @@ pub(crate) const STEPS: [(&str, &[&str]); 14] = [
     ("correct", &["gain", "phase", "delay", "response", "high_passes"]),
     ("delay", &["segments"]),
     ("rms", &[]),
-    ("waveform", &["response", "unit", "low_pass", "truncation", "noise", "delay", "quantities"]),
+    (
+        "waveform",
+        &[
+            "response",
+            "unit",
+            "low_pass",
+            "truncation",
+            "noise",
+            "delay",
+            "additional",
+            "quantities",
+        ],
+    ),
 ];
 
 /// Keys of any step; each has some of them.
@@ -240,6 +252,11 @@ const STEP: &[Key] = keys![
         "Noise of a waveform: of a part of the record or of a channel without a signal, or stated.",
         WAVEFORM_NOISE,
         &[],
+    ),
+    "additional" => referenced(
+        "quantity",
+        "Standard uncertainty of each value of a waveform by what the record has beside the signal, in the unit of the \
+         answer unless told.",
     ),
     "quantities" => described("array", "Figures of a waveform.").with("items", waveform_quantity()),
 ];

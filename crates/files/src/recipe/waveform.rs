@@ -80,6 +80,7 @@ pub(super) fn read(
         delay,
         of_scale: 0.0,
         of_rate: 0.0,
+        additional: low_pass::additional(of, &unit)?,
         quantities: quantities.iter().map(|of| (of.name.clone(), of.quantity)).collect(),
     };
     let others = quantities.into_iter().map(|of| of.other).collect();

@@ -35,6 +35,9 @@ pub struct WaveformStep {
     pub delay: Measured,
     /// The relative standard uncertainty of the scale.
     pub of_scale: f64,
+    /// The standard uncertainty of each value by what the record has beside the signal, whose course is unknown; in the
+    /// unit of the answer.
+    pub additional: f64,
     /// The relative standard uncertainty of the sampling rate.
     pub of_rate: f64,
     /// The figures that are asked for, with their names.
@@ -56,6 +59,8 @@ pub enum WaveformSource {
     Scale,
     /// What the low-pass takes away.
     Truncation,
+    /// What the record has beside the signal.
+    Additional,
     /// The sampling rate.
     SamplingRate,
     /// The other channel of a ratio.
@@ -91,6 +96,7 @@ impl WaveformSource {
             Self::Delay => "delay",
             Self::Scale => "scale",
             Self::Truncation => "truncation",
+            Self::Additional => "additional",
             Self::SamplingRate => "sampling rate",
             Self::OtherChannel => "other channel",
         }
@@ -190,7 +196,9 @@ pub fn corrected(
     let signal_found = Signal { values, rate: signal.rate, start: signal.start };
     let by_noise: f64 = noise_of_lines.iter().sum();
     let by_truncation = missing.size(&lines) / 3f64.sqrt();
-    let mut variances = vec![by_noise + by_truncation * by_truncation; lines.samples];
+    let additional = step.additional;
+    let constant = by_noise + by_truncation * by_truncation + additional * additional;
+    let mut variances = vec![constant; lines.samples];
     let mut sources = vec![(WaveformSource::Noise, by_noise.sqrt())];
     for (source, errors) in &errors {
         let of = errors.variances(&spectrum, &lines);
@@ -204,7 +212,7 @@ pub fn corrected(
     let standard_uncertainties: Vec<f64> =
         variances.iter().map(|variance| variance.sqrt()).collect();
     let mut quantities = Vec::new();
-    let mut half_widths = Vec::new();
+    let (mut half_widths, mut additional_sizes) = (Vec::new(), Vec::new());
     for (name, quantity) in &step.quantities {
         let of = quantity.of(&signal_found)?;
         let mut sensitivity = vec![0.0; lines.samples];
@@ -213,7 +221,7 @@ pub fn corrected(
             lines.forward(&sensitivity).iter().map(|value| value.conj()).collect();
         let by_noise: f64 =
             noise_of_lines.iter().zip(&transformed).map(|(v, g)| v * g.norm_sqr()).sum();
-        let half_width = missing.change(&sensitivity, &transformed, &lines);
+        let half_width = missing.change((&sensitivity, quantity.is_value()), &transformed, &lines);
         let mut contributions = vec![(WaveformSource::Noise, by_noise.sqrt())];
         contributions.extend(errors.iter().map(|(source, errors)| {
             (*source, errors.variance_of(&transformed, &spectrum, &lines).sqrt())
@@ -221,6 +229,13 @@ pub fn corrected(
         if half_width > 0.0 {
             contributions.push((WaveformSource::Truncation, half_width / 3f64.sqrt()));
         }
+        // at no instant more than at the others, and of an unknown course
+        let size =
+            if quantity.is_value() { 1.0 } else { sensitivity.iter().map(|g| g.abs()).sum() };
+        if additional > 0.0 {
+            contributions.push((WaveformSource::Additional, additional * size));
+        }
+        additional_sizes.push(size);
         let by_rate = of.per_rate.abs() * step.of_rate;
         if by_rate > 0.0 {
             contributions.push((WaveformSource::SamplingRate, by_rate));
@@ -240,7 +255,11 @@ pub fn corrected(
     let drawn = trials::run(
         &divided,
         (&signal_found, &standard_uncertainties),
-        (missing.size(&divided.lines), &half_widths),
+        trials::Constant {
+            missing: missing.size(&divided.lines),
+            half_widths: &half_widths,
+            additional_sizes: &additional_sizes,
+        },
         (name, seed, trials),
     );
     let trials = drawn.map(|(found, values)| {

@@ -79,6 +79,11 @@ impl WaveformQuantity {
         }
     }
 
+    /// Whether it is a value of the signal at an instant.
+    pub(super) fn is_value(self) -> bool {
+        matches!(self, Self::Maximum | Self::Minimum | Self::Ratio { .. })
+    }
+
     /// The figure of a signal, with its sensitivity coefficients.
     ///
     /// # Errors

@@ -79,6 +79,7 @@ fn step(response: LineResponse) -> WaveformStep {
         },
         of_scale: 0.0,
         of_rate: 0.0,
+        additional: 0.0,
         quantities: Vec::new(),
     }
 }

@@ -33,13 +33,23 @@ pub struct WaveformTrials {
     pub simultaneous_factor: Option<f64>,
 }
 
+/// Errors that are the same at all instants of a trial.
+#[derive(Clone, Copy)]
+pub(super) struct Constant<'a> {
+    /// The half-width of what is missing at each instant, and of its effect on each figure.
+    pub(super) missing: f64,
+    pub(super) half_widths: &'a [f64],
+    /// How many additional standard uncertainties each figure changes by.
+    pub(super) additional_sizes: &'a [f64],
+}
+
 type Found = (WaveformTrials, Vec<Vec<f64>>);
 
 /// Draws trials; none for none. Beside what they say, the values of each quantity.
 pub(super) fn run(
     divided: &Divided<'_>,
     (found, uncertainties): (&Signal, &[f64]),
-    missing: (f64, &[f64]),
+    constant: Constant<'_>,
     (name, seed, wanted): (&str, u64, u64),
 ) -> Option<Found> {
     let samples = found.values.len();
@@ -49,13 +59,13 @@ pub(super) fn run(
     }
     let mut squares = vec![0.0; samples];
     let mut sums = vec![0.0; samples];
-    let mut quantities: Vec<Vec<f64>> = vec![Vec::new(); missing.1.len()];
+    let mut quantities: Vec<Vec<f64>> = vec![Vec::new(); constant.half_widths.len()];
     let mut farthest = Vec::new();
     for first in (0..count).step_by(AT_A_TIME as usize) {
         let some = first..count.min(first + AT_A_TIME);
         let drawn = parallel::map(some, |trial| {
             let key = StreamKey::new(seed, &format!("{name}, trial {trial}"));
-            one(divided, missing, &mut Normals::new(key))
+            one(divided, constant, &mut Normals::new(key))
         });
         for (values, figures) in drawn {
             let mut most = 0.0_f64;
@@ -90,7 +100,7 @@ pub(super) fn run(
 /// One trial: the values, and the figures; a figure that a trial's signal does not have is not a number.
 fn one(
     divided: &Divided<'_>,
-    (missing, half_widths): (f64, &[f64]),
+    Constant { missing, half_widths, additional_sizes }: Constant<'_>,
     normals: &mut Normals,
 ) -> (Vec<f64>, Vec<f64>) {
     let Divided { step, lines, record, passed, densities, start, rate } = divided;
@@ -98,6 +108,7 @@ fn one(
     let delay = step.delay.standard_uncertainty * normals.next();
     let scale = step.factor / (1.0 + step.of_scale * normals.next());
     let place = 2.0 * normals.next_uniform() - 1.0;
+    let additional = step.additional * normals.next();
     for (line, value) in inverse.iter_mut().enumerate() {
         let turned = at_turns(lines.hertz(line) * delay);
         // of a line that is its own image all of the variance is in the real part
@@ -111,10 +122,12 @@ fn one(
     let values = lines.inverse(inverse);
     let rate = rate * (1.0 + step.of_rate * normals.next());
     let mut signal = Signal { values, rate, start: *start };
-    let figures = step.quantities.iter().zip(half_widths).map(|((_, quantity), half_width)| {
-        quantity.of(&signal).map_or(f64::NAN, |of| of.value + place * half_width)
+    let sizes = half_widths.iter().zip(additional_sizes);
+    let figures = step.quantities.iter().zip(sizes).map(|((_, quantity), (half_width, size))| {
+        let error = place * half_width + additional * size;
+        quantity.of(&signal).map_or(f64::NAN, |of| of.value + error)
     });
     let figures = figures.collect();
-    signal.values.iter_mut().for_each(|value| *value += place * missing);
+    signal.values.iter_mut().for_each(|value| *value += place * missing + additional);
     (signal.values, figures)
 }

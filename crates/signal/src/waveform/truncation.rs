@@ -13,7 +13,7 @@ pub enum Truncation {
     Nothing,
     /// At no instant it is greater than this, in the unit of the answer.
     Bound(f64),
-    /// The spectrum falls at least with a power of the frequency.
+    /// The spectrum falls at least with a power of the frequency; the octave above `from` tells its size.
     Decay {
         /// From this frequency on, in hertz.
         from: f64,
@@ -39,8 +39,8 @@ pub(super) struct SpectrumBound {
 }
 
 impl SpectrumBound {
-    /// Below `from` the spectrum is what the record says; above it, the smallest power law that no line which stands
-    /// above its noise exceeds. `spectrum` are the lines of the corrected signal without a low-pass, `noise` the root
+    /// Below `from` the spectrum is what the record says; above it, the smallest power law that no line of the octave
+    /// above `from` exceeds which stands above its noise. `spectrum` are the lines of the corrected signal without a low-pass, `noise` the root
     /// mean square of their noise.
     ///
     /// # Errors
@@ -54,14 +54,20 @@ impl SpectrumBound {
         let size = |line: usize| spectrum[line].norm_sqr().sqrt();
         let law = |hertz: f64| gumption_engine::number::elementary::pow(from / hertz, power);
         let is_above = |line: usize| lines.hertz(line) >= from && line > 0;
+        let tells = |line: usize| {
+            is_above(line)
+                && lines.hertz(line) <= 2.0 * from
+                && size(line) > ABOVE_NOISE * noise(line)
+        };
         let level = (0..lines.count())
-            .filter(|line| is_above(*line) && size(*line) > ABOVE_NOISE * noise(*line))
+            .filter(|line| tells(*line))
             .map(|line| size(line) / law(lines.hertz(line)))
             .fold(0.0, f64::max);
         if level == 0.0 {
             return Err(format!(
-                "no line of the spectrum from {from} Hz on stands above {ABOVE_NOISE} times its noise, so that it does not \
-                 tell how large the signal is there: let `from` be lower, or state a `bound`"
+                "no line of the spectrum from {from} Hz to {} Hz stands above {ABOVE_NOISE} times its noise, so that it does \
+                 not tell how large the signal is there: let `from` be lower, or state a `bound`",
+                2.0 * from
             ));
         }
         let modulus =
@@ -96,9 +102,16 @@ impl Missing {
     }
 
     /// The greatest change of a figure with the sensitivity coefficients g(n), whose sums of
-    /// g(n) exp(2 pi i k n/N) are `transformed`.
-    pub(super) fn change(&self, sensitivity: &[f64], transformed: &[Phasor], lines: &Lines) -> f64 {
+    /// g(n) exp(2 pi i k n/N) are `transformed`. A figure that is a value of the signal changes by no more than the
+    /// bound at its instant.
+    pub(super) fn change(
+        &self,
+        (sensitivity, is_value): (&[f64], bool),
+        transformed: &[Phasor],
+        lines: &Lines,
+    ) -> f64 {
         match self {
+            Self::AtInstants(bound) if is_value => *bound,
             Self::AtInstants(bound) => bound * sensitivity.iter().map(|g| g.abs()).sum::<f64>(),
             Self::AtLines(moduli, above) => {
                 let size = |of: &Phasor| of.norm_sqr().sqrt();

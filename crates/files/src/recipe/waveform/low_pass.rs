@@ -47,6 +47,26 @@ pub(super) fn read(of: &Object<'_>) -> Option<Option<LowPass>> {
     Some(Some(LowPass { cutoff, order: u32::try_from(order).ok()?, delay }))
 }
 
+/// The additional standard uncertainty, in the unit of the answer; 0 where none is stated.
+pub(super) fn additional(of: &Object<'_>, unit: &Unit) -> Option<f64> {
+    match of.get("additional") {
+        Some(member) => size(of, member, unit),
+        None => Some(0.0),
+    }
+}
+
+/// A size above zero, in the unit of the answer.
+fn size(of: &Object<'_>, member: &Member, unit: &Unit) -> Option<f64> {
+    let found = of_member(of, member, unit.text())?;
+    same_dimension(of, member, &found.unit, unit).then_some(())?;
+    if found.value <= 0.0 {
+        let (key, found) = (member.key.clone(), found.value);
+        of.log.report(&member.value.span, DiagnosticKind::NotPositive { key, found });
+        return None;
+    }
+    Some(unit.from_si(found.si()))
+}
+
 /// What is known of the part that a low-pass takes away; `unit` is that of the answer.
 pub(super) fn truncation(of: &Object<'_>, unit: &Unit, has_low_pass: bool) -> Option<Truncation> {
     let member = match (of.get("truncation"), has_low_pass) {
@@ -77,10 +97,7 @@ pub(super) fn truncation(of: &Object<'_>, unit: &Unit, has_low_pass: bool) -> Op
             of.log.report(&second.key_span, diagnostic);
             return None;
         }
-        let found = of_member(&inner, bound, unit.text())?;
-        same_dimension(&inner, bound, &found.unit, unit).then_some(())?;
-        super::positive(&inner, "bound", &found).then_some(())?;
-        return Some(Truncation::Bound(unit.from_si(found.si())));
+        return size(&inner, bound, unit).map(Truncation::Bound);
     }
     let from = above_zero(&inner, "from", "Hz");
     inner.required("decay")?;

@@ -8,13 +8,12 @@ use crate::{keys, model_file};
 use gumption_engine::linalg::{Eigen, packed};
 use gumption_engine::regression::{ComplexForm, ComplexSpread, Regression};
 use gumption_signal::{
-    Beyond, CalibratedResponse, Coordinates, Errors, LineResponse, ModelledResponse, Phasor, PointError,
-    ResponseModel,
+    Beyond, CalibratedResponse, Coordinates, Errors, LineResponse, ModelledResponse, Phasor,
+    PointError, ResponseModel,
 };
-use gumption_text::DiagnosticKind;
-use gumption_text::bytes::sha256;
 use gumption_text::json::{Json, Member};
 use gumption_text::object::Object;
+use gumption_text::{DiagnosticKind, Place};
 use gumption_units::{Turn, Unit};
 
 /// The response, and its unit.
@@ -66,7 +65,10 @@ fn calibrated(of: &Object<'_>, files: &mut RecipeFiles<'_>) -> Option<(LineRespo
     let fault = |reason: String| of.log.report(&x.value.span, DiagnosticKind::Recipe { reason });
     let hertz = Unit::parse("Hz").ok()?;
     if !found.x.unit.is_compatible(&hertz) || found.x.unit.turn() == Some(Turn::Angle) {
-        fault(format!("the frequencies of a response are in Hz, kHz, ..., not in {}", found.x.unit));
+        fault(format!(
+            "the frequencies of a response are in Hz, kHz, ..., not in {}",
+            found.x.unit
+        ));
         return None;
     }
     let frequencies: Vec<f64> = found.x.values.iter().map(|f| found.x.unit.to_si(*f)).collect();
@@ -76,8 +78,7 @@ fn calibrated(of: &Object<'_>, files: &mut RecipeFiles<'_>) -> Option<(LineRespo
         return None;
     }
     let errors = errors(of, &found)?;
-    let shared =
-        word(of, "shared", [("points", Errors::OfPoints), ("lines", Errors::OfLines)])?;
+    let shared = word(of, "shared", [("points", Errors::OfPoints), ("lines", Errors::OfLines)])?;
     let ends = [("hold", Beyond::Hold), ("cut", Beyond::Cut)];
     let beyond = [word(of, "below", ends)?, word(of, "above", ends)?];
     let [first, second] = &found.values;
@@ -152,7 +153,8 @@ fn errors(of: &Object<'_>, found: &ComplexOrdinates) -> Option<Vec<PointError>> 
             let eigen = Eigen::of(&packed::to_symmetric(lower));
             let largest = eigen.values.iter().copied().fold(0.0, f64::max);
             if eigen.values.iter().any(|value| *value < -1e-9 * largest) {
-                let reason = "the covariance matrix of the response has a negative eigenvalue".to_owned();
+                let reason =
+                    "the covariance matrix of the response has a negative eigenvalue".to_owned();
                 of.log.report(&of.get("y")?.key_span, DiagnosticKind::Recipe { reason });
                 return None;
             }
@@ -175,7 +177,9 @@ fn modelled(
 ) -> Option<(LineResponse, Unit)> {
     for key in ["correlation", "shared", "below", "above"] {
         if let Some(other) = of.get(key) {
-            let reason = format!("`{key}` belongs to points; a fit has its parameters' covariances at all frequencies");
+            let reason = format!(
+                "`{key}` belongs to points; a fit has its parameters' covariances at all frequencies"
+            );
             of.log.report(&other.key_span, DiagnosticKind::Recipe { reason });
             return None;
         }
@@ -185,7 +189,9 @@ fn modelled(
     let file = match model_file::named(files.context, files.folder, name, &[]) {
         Ok(Ok(file)) => file,
         Ok(Err(diagnostics)) => {
-            of.log.extend(diagnostics);
+            for found in diagnostics.0 {
+                of.log.report_at(Place { source: found.source, span: found.span }, found.kind);
+            }
             return None;
         }
         Err(kind) => {
@@ -197,7 +203,8 @@ fn modelled(
     let wanted = of.text("fit")?;
     let curves = &file.task.curves;
     let Some(curve) = curves.iter().find(|curve| curve.fit.name == wanted) else {
-        let known: Vec<String> = curves.iter().map(|curve| format!("`{}`", curve.fit.name)).collect();
+        let known: Vec<String> =
+            curves.iter().map(|curve| format!("`{}`", curve.fit.name)).collect();
         let reason = match known.is_empty() {
             true => format!("`{name}` has no `fits`"),
             false => format!("`{name}` has no fit `{wanted}`; its fits are {}", known.join(", ")),
@@ -217,9 +224,7 @@ fn modelled(
     files.warnings.extend(file.warnings.iter().filter(|of| of.code() == "fit-not-valid").cloned());
     files.read.push((name.to_owned(), file.source.text.clone().into_bytes()));
     let regression = Arc::clone(&curve.fit);
-    let count = regression.count();
-    let covariance =
-        (0..count * count).map(|at| regression.covariance(at / count, at % count)).collect();
+    let covariance = regression.covariance_matrix().to_vec();
     let misfit = misfit(&regression, &curve.x);
     let model = FittedResponse { fit: Arc::clone(&regression), in_hertz: curve.x.clone() };
     let response = ModelledResponse {
@@ -263,7 +268,10 @@ fn misfit(fit: &Regression, x: &Unit) -> Option<CalibratedResponse> {
     let excess = [0, 1].map(|part| {
         let sum: f64 = residuals
             .iter()
-            .map(|of| of.relative[part] * of.relative[part] - of.relative_u[part] * of.relative_u[part])
+            .map(|of| {
+                let stated = of.covariance.map_or(0.0, |matrix| matrix[part][part]);
+                of.relative[part] * of.relative[part] - stated
+            })
             .sum();
         (sum / n).max(0.0).sqrt()
     });
@@ -275,4 +283,3 @@ fn misfit(fit: &Regression, x: &Unit) -> Option<CalibratedResponse> {
     frequencies.dedup();
     Some(CalibratedResponse::about_one(frequencies, excess))
 }
-
