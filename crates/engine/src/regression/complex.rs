@@ -64,6 +64,18 @@ pub struct PolarValue {
     pub phase_uncertainty: f64,
 }
 
+impl ComplexResidual {
+    /// The relative difference of the moduli of point and curve.
+    pub fn modulus(&self) -> f64 {
+        hypot(1.0 + self.relative[0], self.relative[1]) - 1.0
+    }
+
+    /// The phase of the point minus the phase of the curve in radians, from -pi to pi.
+    pub fn phase(&self) -> f64 {
+        atan2(self.relative[1], 1.0 + self.relative[0])
+    }
+}
+
 impl Points {
     /// Points with complex ordinates and exact abscissae; `values` are both parts of them. A modulus
     /// is positive.

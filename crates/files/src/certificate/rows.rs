@@ -127,6 +127,14 @@ impl<'a> CertificateRows<'a> {
                 self.log.report(&fit.value.span, DiagnosticKind::Certificate { reason });
                 return None;
             };
+            if curve.fit.is_complex() {
+                let reason = format!(
+                    "`{wanted}` is complex, and a certificate states real functions; state outputs of \
+                     the model, such as its modulus at each frequency, as rows"
+                );
+                self.log.report(&fit.value.span, DiagnosticKind::Certificate { reason });
+                return None;
+            }
             let mut settings = task.settings;
             self.asking.apply(&mut settings);
             Some(StatedFunction { file, curve: curve.clone(), coverage: settings.coverage, label })

@@ -8,6 +8,7 @@ use gumption_engine::fact;
 use gumption_engine::fact::Fact;
 use gumption_engine::model::formula::{Formula, Scope, Typing, check_name};
 use gumption_engine::model::{NumberForm, Program, Recorder, Traced};
+use gumption_engine::number::{ComplexNumber, Number};
 use gumption_text::DiagnosticKind;
 use gumption_text::json::{Json, Member};
 use gumption_text::object::Object;
@@ -18,6 +19,9 @@ use gumption_units::{Turn, Unit};
 
 /// The variable of a formula.
 const VARIABLE: &str = "x";
+
+/// The imaginary unit of a formula, unless a parameter has this name.
+pub(super) const IMAGINARY_UNIT: &str = "i";
 
 /// The highest degree.
 const MOST_DEGREE: f64 = 20.0;
@@ -78,18 +82,27 @@ impl<'a> FitForm<'a> {
         }
     }
 
-    /// The program of a formula; nothing of a polynomial. Outside `None` after a mistake.
+    /// The program of a formula; nothing of a polynomial. Outside `None` after a mistake. `is_complex`
+    /// says whether y is.
     #[allow(clippy::option_option)]
     pub(super) fn curve(
         &self,
         fit: &Object<'_>,
         fit_name: &str,
-        x: &Unit,
-        y: &Unit,
+        (x, y, is_complex): (&Unit, &Unit, bool),
         range: [f64; 2],
         numbers: NumberForm,
     ) -> Option<Option<Made>> {
         let Self::Formula(formula, member) = self else {
+            if is_complex {
+                let form = if matches!(self, Self::Degree(1)) {
+                    "a straight line"
+                } else {
+                    "a polynomial"
+                };
+                one_is_complex(fit, fit_name, format!("the form is {form}, which is real"));
+                return None;
+            }
             if let Some(start) = fit.get("start") {
                 let diagnostic =
                     DiagnosticKind::OnlyWith { key: "start", with: "a formula as \"form\"" };
@@ -107,6 +120,7 @@ impl<'a> FitForm<'a> {
         for (name, unit, _) in &start.parameters {
             scope.define(name, if checked { Typing::in_unit(unit) } else { Typing::ANY });
         }
+        let has_imaginary_unit = start.define_imaginary_unit(formula, &mut scope);
         let found = if checked { formula.check(&scope) } else { formula.check_names(&scope) };
         let typing = match found {
             Ok(typing) => typing,
@@ -115,6 +129,25 @@ impl<'a> FitForm<'a> {
                 return None;
             }
         };
+        match (formula.is_complex(&scope), is_complex) {
+            (true, false) => {
+                let form = formula.text();
+                let reason = format!(
+                    "the form `{form}` is complex, but y is real: give y as {{\"complex\": {{\"modulus\": \
+                     ..., \"phase\": ...}}}} (or `re`, `im`), take a part of the form with abs, arg, re or \
+                     im, or, where `i` is a parameter, give its value in `start`"
+                );
+                let name = fit_name.to_owned();
+                fit.log.report(&member.value.span, DiagnosticKind::Fit { name, reason });
+                return None;
+            }
+            (false, true) => {
+                let form = format!("the form `{}` is real", formula.text());
+                one_is_complex(fit, fit_name, form);
+                return None;
+            }
+            _ => {}
+        }
         let name = || "y".to_owned();
         if let Some(dimension) = typing.dimension.filter(|_| checked)
             && dimension != y.dimension()
@@ -140,20 +173,27 @@ impl<'a> FitForm<'a> {
         let recorder = Recorder::default();
         let units = std::iter::once((VARIABLE, x))
             .chain(start.parameters.iter().map(|(name, unit, _)| (name.as_str(), unit)));
-        let values: HashMap<String, Traced<'_>> = units
+        let mut values: HashMap<String, ComplexNumber<Traced<'_>>> = units
             .enumerate()
             .map(|(number, (name, unit))| {
-                (name.to_owned(), form.taken(recorder.variable(number), unit))
+                let value = form.taken(recorder.variable(number), unit);
+                (name.to_owned(), ComplexNumber::real(value))
             })
             .collect();
-        let value = match formula.record(&scope, &values) {
-            Ok(value) => form.given(value, y, typing),
+        if has_imaginary_unit {
+            values.insert(IMAGINARY_UNIT.to_owned(), imaginary_unit());
+        }
+        let outputs: Vec<Traced<'_>> = match formula.evaluate(&scope, &values) {
+            Ok(value) => {
+                let parts = std::iter::once(value.re).chain(value.im.filter(|_| is_complex));
+                parts.map(|part| form.given(part, y, typing)).collect()
+            }
             Err(error) => {
                 report_formula(fit.log, member, error);
                 return None;
             }
         };
-        let program = recorder.program(1 + start.parameters.len(), &[value]);
+        let program = recorder.program(1 + start.parameters.len(), &outputs);
         // numbers alone are in units that follow from those of x and y
         let empirical = numbers == NumberForm::Coherent && !start.has_units;
         let inferred = empirical
@@ -278,10 +318,10 @@ impl Start {
             };
             parameters.push((name.clone(), unit, value));
         }
-        if let Some((name, span)) = formula
-            .names()
-            .find(|(name, _)| *name != VARIABLE && !parameters.iter().any(|(p, ..)| p == name))
-        {
+        if let Some((name, span)) = formula.names().find(|(name, _)| {
+            ![VARIABLE, IMAGINARY_UNIT].contains(name)
+                && !parameters.iter().any(|(p, ..)| p == name)
+        }) {
             let reason = format!(
                 "`{name}` is neither `x` nor a parameter: each parameter has a value in `start`"
             );
@@ -295,6 +335,32 @@ impl Start {
         }
         Some(Self { parameters, has_units })
     }
+
+    /// Makes `i` the imaginary unit, unless it is a parameter; returns whether the formula has it.
+    fn define_imaginary_unit(&self, formula: &Formula, scope: &mut Scope) -> bool {
+        let is_named = formula.names().any(|(name, _)| name == IMAGINARY_UNIT);
+        let is_unit = is_named && self.parameters.iter().all(|(name, ..)| name != IMAGINARY_UNIT);
+        if is_unit {
+            scope.define(IMAGINARY_UNIT, Typing::NUMBER);
+            scope.define_complex(IMAGINARY_UNIT);
+        }
+        is_unit
+    }
+}
+
+/// The imaginary unit.
+pub(super) fn imaginary_unit<T: Number>() -> ComplexNumber<T> {
+    ComplexNumber::new(T::constant(0.0), T::constant(1.0))
+}
+
+/// That y is complex and the form is not.
+fn one_is_complex(fit: &Object<'_>, name: &str, form: String) {
+    let reason = format!(
+        "y is complex, but {form}: write a complex formula as `form`, such as \"S0/(1 - (x/f0)^2 + \
+         2*i*damping*x/f0)\", or fit one part of y as a real y"
+    );
+    let place = fit.get("form").map_or(fit.place(), |form| &form.value.span);
+    fit.log.report(place, DiagnosticKind::Fit { name: name.to_owned(), reason });
 }
 
 fn member_has_none(fit: &Object<'_>, form: &Member) {

@@ -1,6 +1,9 @@
 //! Calibration functions of a file: points, the curve that is fitted to them, and its parameters as
 //! correlated inputs.
 
+mod complex_points;
+#[cfg(test)]
+mod complex_tests;
 pub(super) mod extrapolation;
 mod form;
 mod matrix;
@@ -156,7 +159,8 @@ impl FitReader<'_, '_> {
         };
         let (form, (points, (x, y), is_stated)) = (form?, points?);
         let points = Arc::new(if estimated { points.estimated() } else { points });
-        let made = form.curve(&object, self.name, &x, &y, points.range(), numbers)?;
+        let sides = (&x, &y, points.is_complex());
+        let made = form.curve(&object, self.name, sides, points.range(), numbers)?;
         let origin = match object.get("origin") {
             None => 0.0,
             Some(_) => object.value("origin", &x, ValueOf::Quantity)?,
@@ -209,8 +213,9 @@ impl FitReader<'_, '_> {
         if !fitted.is_linear() && fitted.points.len() > MANY_POINTS {
             let reason = format!(
                 "there are {} points, but a fit whose trials need fits of their own takes at most \
-                 {MANY_POINTS}; state means of groups of points",
-                fitted.points.len()
+                 {}; state means of groups of points",
+                fitted.points.count(),
+                MANY_POINTS * fitted.points.count() / fitted.points.len()
             );
             self.fault(reason, self.object.place());
             return None;
@@ -230,7 +235,11 @@ impl FitReader<'_, '_> {
     fn points(&mut self) -> Option<(Points, (Unit, Unit), [bool; 2])> {
         let (x, y) = (self.object.required("x"), self.object.required("y"));
         let (x, y) = (x?, y?);
-        let (mut tables, folder, files) = (Tables::of([x, y]), self.folder, &mut self.set.files);
+        if let Some((y, complex)) = complex_points::of(self.object.log, y) {
+            return self.complex_points(x, y, complex);
+        }
+        let (mut tables, folder) = (Tables::of([x, y], &["x", "y"]), self.folder);
+        let files = &mut self.set.files;
         let x = points::read(self.object.log, x, "x", (folder, &mut tables), files);
         let y = points::read(self.object.log, y, "y", (folder, &mut tables), files);
         let (x, y) = (x?, y?);

@@ -7,8 +7,10 @@
 
 use std::collections::HashMap;
 
+use super::form::{IMAGINARY_UNIT, imaginary_unit};
 use super::texts_of;
 use gumption_engine::model::formula::{Formula, Scope, Typing};
+use gumption_engine::number::ComplexNumber;
 use gumption_text::Collector;
 use gumption_units::Unit;
 
@@ -49,10 +51,18 @@ pub(super) fn inferred(
     if sets > MOST_SETS {
         return None;
     }
+    let has_imaginary_unit = !parameters.iter().any(|(name, ..)| name == IMAGINARY_UNIT);
+    let with_imaginary_unit = |mut scope: Scope| {
+        if has_imaginary_unit {
+            scope.define(IMAGINARY_UNIT, Typing::NUMBER);
+            scope.define_complex(IMAGINARY_UNIT);
+        }
+        scope
+    };
     let places = [least, least + 0.5 * (most - least), most];
     let declared = |place: f64| {
         let own = parameters.iter().map(|(name, _, value)| (name.clone(), *value));
-        value(formula, &Scope::from_iter([("x", Typing::ANY)]), own, place)
+        value(formula, &with_imaginary_unit(Scope::from_iter([("x", Typing::ANY)])), own, place)
     };
     let expected = places.map(declared);
     if !expected.iter().any(|value| value.is_some()) {
@@ -69,7 +79,7 @@ pub(super) fn inferred(
                 unit
             })
             .collect();
-        let mut scope = Scope::from_iter([("x", Typing::in_unit(x))]);
+        let mut scope = with_imaginary_unit(Scope::from_iter([("x", Typing::in_unit(x))]));
         for ((name, ..), unit) in parameters.iter().zip(&chosen) {
             scope.define(name, Typing::in_unit(unit));
         }
@@ -77,13 +87,15 @@ pub(super) fn inferred(
         let is_y = typing.is_some_and(|typing| {
             typing.dimension == Some(y.dimension()) && typing.reported_in(y).is_ok()
         });
-        let agrees = |(place, expected): (&f64, &Option<f64>)| {
+        let agrees = |(place, expected): (&f64, &Option<[f64; 2]>)| {
             let own = parameters.iter().zip(&chosen);
             let own = own.map(|((name, _, value), unit)| (name.clone(), unit.to_si(*value)));
-            let coherent =
-                value(formula, &scope, own, x.to_si(*place)).map(|value| y.from_si(value));
-            match (coherent, expected) {
-                (Some(a), Some(b)) => (a - b).abs() <= ROUNDING * b.abs(),
+            let coherent = value(formula, &scope, own, x.to_si(*place));
+            match (coherent.map(|parts| parts.map(|part| y.from_si(part))), expected) {
+                (Some([re, im]), Some([other_re, other_im])) => {
+                    let far = (re - other_re).abs() + (im - other_im).abs();
+                    far <= ROUNDING * (other_re.abs() + other_im.abs())
+                }
                 (None, None) => true,
                 _ => false,
             }
@@ -98,15 +110,20 @@ pub(super) fn inferred(
     found
 }
 
-/// The value of a formula, if it is finite.
+/// Both parts of the value of a formula, if they are finite; a parameter may be called `i`.
 fn value(
     formula: &Formula,
     scope: &Scope,
     parameters: impl Iterator<Item = (String, f64)>,
     x: f64,
-) -> Option<f64> {
-    let values: HashMap<String, f64> = parameters.chain([("x".to_owned(), x)]).collect();
-    formula.evaluate(scope, &values).ok().filter(|value| value.is_finite())
+) -> Option<[f64; 2]> {
+    let real = |(name, value)| (name, ComplexNumber::real(value));
+    let unit = [(IMAGINARY_UNIT.to_owned(), imaginary_unit())];
+    let own = parameters.chain([("x".to_owned(), x)]).map(real);
+    let values: HashMap<String, ComplexNumber<f64>> = unit.into_iter().chain(own).collect();
+    let value = formula.evaluate(scope, &values).ok()?;
+    let parts = [value.re, value.im.unwrap_or(0.0)];
+    parts.iter().all(|part| part.is_finite()).then_some(parts)
 }
 
 /// The product of powers of both units.

@@ -34,13 +34,13 @@ pub(super) struct Tables<'f> {
 
 impl<'f> Tables<'f> {
     /// Of a fit with these coordinates, none of which was read yet. One that names no column is in that of its
-    /// own name.
-    pub(super) fn of(coordinates: [&'f Member; 2]) -> Self {
+    /// own name, which is one of `own`.
+    pub(super) fn of(coordinates: [&'f Member; 2], own: &[&'static str]) -> Self {
         let named = coordinates.into_iter().flat_map(|member| member.value.texts());
-        Self { named: ["x", "y"].into_iter().chain(named).collect(), read: Vec::new() }
+        Self { named: own.iter().copied().chain(named).collect(), read: Vec::new() }
     }
 
-    fn read(
+    pub(super) fn read(
         &mut self,
         log: &Collector,
         name: &str,
@@ -71,7 +71,11 @@ pub(super) fn read(
     (folder, tables): (Folder<'_>, &mut Tables<'_>),
     files: &mut Vec<(String, Vec<u8>)>,
 ) -> Option<Side> {
-    let what = if name == "x" { "`x` of a fit" } else { "`y` of a fit" };
+    let what = match name {
+        "x" => "`x` of a fit",
+        "y" => "`y` of a fit",
+        _ => "a part of a complex `y`",
+    };
     let object = Object::new(log, what, &member.value, &member.key_span)?;
     keys::check(&object, keys::POINTS);
     let unit = match object.get("unit") {
@@ -113,6 +117,27 @@ pub(super) fn read(
     let spread = spread(&object, name, &values, &unit, table.as_deref(), folder, files)?;
     let is_stated = object.get("unit").is_some();
     Some(Side { values, unit, is_stated, spread })
+}
+
+/// A column of plain numbers of the table that a coordinate is in, if it has such a column.
+pub(super) fn numbers_beside(
+    log: &Collector,
+    member: &Member,
+    column: &Member,
+    (folder, tables): (Folder<'_>, &mut Tables<'_>),
+    files: &mut Vec<(String, Vec<u8>)>,
+) -> Option<Vec<f64>> {
+    let object = Object::new(log, "a part of a complex `y`", &member.value, &member.key_span)?;
+    let (Json::Text(name), Some(file)) = (&column.value.value, object.get("file")) else {
+        let (key, found) = (column.key.clone(), column.value.value.kind());
+        let what = format!("`{key}`");
+        let expected = "a number, a list with one for each point, or a column of the file of y";
+        log.report(&column.value.span, DiagnosticKind::WrongType { what, found, expected });
+        return None;
+    };
+    let table = tables.read(log, object.text("file")?, &file.value.span, folder, files)?;
+    let of = (&Unit::one(), ValueOf::Difference);
+    column_of(log, &table, &column.key, name, &column.value.span, of)
 }
 
 /// A column of a table, for the coordinate `name`; `of` is what its values are, and their unit.

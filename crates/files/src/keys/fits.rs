@@ -2,7 +2,7 @@
 
 use super::node::{With, object, reference, texts};
 use super::values::whole;
-use super::{Key, closed, described, keys, named, referenced, text_of};
+use super::{Key, closed, described, keys, named, referenced, text_of, with_key};
 use serde_json::Value;
 
 pub(super) fn definitions() -> Vec<(String, Value)> {
@@ -10,6 +10,7 @@ pub(super) fn definitions() -> Vec<(String, Value)> {
         ("fits", named("Calibration functions by name, which formulas call.", reference("fit"))),
         ("fit", closed("Points and the curve that is fitted to them.", FIT, &["x", "y"])),
         ("points", closed("A coordinate of the points.", POINTS, &[])),
+        ("complex-points", closed("Complex ordinates.", COMPLEX_ORDINATES, &["complex"])),
     ];
     definitions.into_iter().map(|(name, node)| (name.to_owned(), node)).collect()
 }
@@ -26,7 +27,12 @@ pub(crate) const FIT: &[Key] = keys![
         ]),
     "origin" => referenced("value", "Where the powers of x count from; 0."),
     "x" => referenced("points", "The abscissae."),
-    "y" => referenced("points", "The ordinates."),
+    "y" => object([
+            ("description", Value::from("The ordinates.")),
+            ("if", with_key("complex")),
+            ("then", reference("complex-points")),
+            ("else", reference("points")),
+        ]),
     "cross_covariance" => covariance(
             "Covariances of x with y: of each point, or a matrix whose entry (i, j) is that of x i with \
              y j.",
@@ -41,6 +47,25 @@ pub(crate) const FIT: &[Key] = keys![
         .with("additionalProperties", reference("value")),
     "about" => text_of("What it is, in words."),
     "group" => text_of("A group of the budget, for subtotals."),
+];
+
+/// Keys of complex ordinates.
+pub(crate) const COMPLEX_ORDINATES: &[Key] = keys![
+    "complex" => closed("Both parts of the values.", COMPLEX_POINTS, &[]),
+    "about" => text_of("What it is, in words."),
+];
+
+/// Keys of both parts of complex ordinates.
+pub(crate) const COMPLEX_POINTS: &[Key] = keys![
+    "re" => referenced("points", "The real part."),
+    "im" => referenced("points", "The imaginary part, in the unit of the real one."),
+    "modulus" => referenced("points", "The modulus."),
+    "phase" => referenced("points", "The phase, in radians unless it says its own unit."),
+    "correlation" => correlation(),
+    "covariance" => covariance(
+            "The covariance matrix of all first parts, then all second ones, in squares and products of \
+             their units.",
+        ),
 ];
 
 /// Keys of a coordinate.
@@ -62,6 +87,18 @@ fn uncertainty() -> Value {
     object([
         ("description", Value::from("Standard uncertainty of all values, or of each.")),
         ("anyOf", Value::from(vec![number(), list, text])),
+    ])
+}
+
+fn correlation() -> Value {
+    let number =
+        || object([("type", "number".into()), ("minimum", (-1).into()), ("maximum", 1.into())]);
+    let list = object([("type", Value::from("array")), ("items", number())]);
+    let about =
+        "Correlation coefficient of both parts of every point, or of each; a column of the file.";
+    object([
+        ("description", Value::from(about)),
+        ("anyOf", Value::from(vec![number(), list, described("string", "A column.")])),
     ])
 }
 
