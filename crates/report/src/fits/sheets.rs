@@ -94,8 +94,8 @@ pub(super) fn statement(curve: &CurveFunction, coverage: Coverage, digits: u32) 
         let modulus = polar.iter().map(|of| (of.modulus, k * of.modulus_uncertainty)).collect();
         let phase =
             polar.iter().map(|of| (of.phase.to_degrees(), k * of.phase_uncertainty.to_degrees()));
-        state([&format!("abs {name}"), "U"], &y_unit, modulus);
-        state([&format!("arg {name}"), "U"], "deg", phase.collect());
+        state([&format!("abs {name}"), "U of abs"], &y_unit, modulus);
+        state([&format!("arg {name}"), "U of arg"], "deg", phase.collect());
     } else {
         let value = |x: &f64| (curve.fit.at(*x), k * curve.fit.uncertainty_at(*x));
         state([&name, "U"], &y_unit, at.iter().map(value).collect());
