@@ -380,6 +380,6 @@ fn complex_fits_that_are_refused() {
         r#"{{"fits": {{"s": {{{form}, "x": {x}, "y": {turned}}}}}, "equations": {{"e": "s.a"}},
         "outputs": {{"e": {{}}}}, "monte_carlo": {{"trials": 0}}}}"#
     );
-    let task = read_at(Path::new(""), &text);
-    assert!(task.warnings.iter().any(|warning| warning.place == "s"), "{:?}", task.warnings);
+    let notes = read_text("test", &text, Path::new(""), &[]).unwrap().warnings;
+    assert!(notes.iter().any(|note| note.place == "s"), "{notes:?}");
 }
