@@ -383,8 +383,8 @@ pub mod propagate {
 /// formulas of a task may call them ([`Task::curves`](task::Task::curves)).
 pub mod calibration {
     pub use gumption_engine::regression::{
-        Coordinate, Cross, Curve, CurveFunction, DegreeChoice, Points, Regression, RegressionError,
-        Spread, choose_degree,
+        ComplexForm, ComplexResidual, ComplexSpread, Coordinate, Cross, Curve, CurveFunction,
+        DegreeChoice, Points, PolarValue, Regression, RegressionError, Spread, choose_degree,
     };
 }
 

@@ -30,6 +30,7 @@ const TEMPLATES: &[(&str, &str)] = templates! {
     "relative-sensitivity": "relative_sensitivity",
     "phase-budget": "phase_budget",
     "measuring-chain": "measuring_chain",
+    "seismic-response": "seismic_response",
 };
 
 /// The built-in measurements with their templates.

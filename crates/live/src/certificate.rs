@@ -63,11 +63,13 @@ fn described(file: &ModelFile) -> Json {
         of["readings"] = json!(file.readings.inputs.contains(&input.quantity.name));
         of
     });
+    let functions = file.task.curves.iter().filter(|of| !of.fit.is_complex());
+    let functions = functions.map(|of| &of.fit.name);
     json!({
         "outputs": outputs.collect::<Vec<_>>(),
         "inputs": inputs.collect::<Vec<_>>(),
         "conditions": model.conditions.iter().map(quantity).collect::<Vec<_>>(),
-        "functions": file.task.curves.iter().map(|of| &of.fit.name).collect::<Vec<_>>(),
+        "functions": functions.collect::<Vec<_>>(),
         "rows": file.task.rows.len(),
         "sweep": !model.conditions.is_empty(),
     })

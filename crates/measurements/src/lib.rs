@@ -19,6 +19,7 @@ mod projection_45;
 mod relative_sensitivity;
 mod rotating_table;
 mod rotating_table_instant;
+mod seismic_response;
 mod sensitivity;
 mod sensitivity_matrix;
 mod spurious_component;
@@ -38,6 +39,7 @@ pub use projection_45::{Projection45, Projection45Accelerations};
 pub use relative_sensitivity::{RelativeSensitivity, RelativeSensitivityDifference};
 pub use rotating_table::{RotatingTable, RotatingTableAccelerations};
 pub use rotating_table_instant::{RotatingTableInstant, RotatingTableInstantMotion};
+pub use seismic_response::{SeismicResponse, SeismicSensitivity};
 pub use sensitivity::{Sensitivity, SensitivityRatio};
 pub use sensitivity_matrix::{SensitivityMatrix, SensitivityMatrixElements};
 pub use spurious_component::{

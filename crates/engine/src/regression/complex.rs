@@ -119,7 +119,7 @@ impl Points {
                 }
                 for i in 0..n {
                     let (u, v, r) = (variances[i], scales[i] * second[i], correlations[i]);
-                    if !(r.abs() < 1.0) {
+                    if r.is_nan() || r.abs() >= 1.0 {
                         let coordinate = Some(Coordinate::Y);
                         return Err(RegressionError::NotDefinite { coordinate, point: i });
                     }

@@ -231,7 +231,7 @@ impl FitReader<'_, '_> {
     }
 
     fn check_correlations(&self, member: &Member, found: &[f64], n: usize) -> Option<()> {
-        let reason = match found.iter().position(|r| !(r.abs() < 1.0)) {
+        let reason = match found.iter().position(|r| r.is_nan() || r.abs() >= 1.0) {
             _ if found.len() != n => {
                 format!("there are {} correlation coefficients for {n} points", found.len())
             }

@@ -341,11 +341,15 @@ impl Start {
         let is_named = formula.names().any(|(name, _)| name == IMAGINARY_UNIT);
         let is_unit = is_named && self.parameters.iter().all(|(name, ..)| name != IMAGINARY_UNIT);
         if is_unit {
-            scope.define(IMAGINARY_UNIT, Typing::NUMBER);
-            scope.define_complex(IMAGINARY_UNIT);
+            define_imaginary_unit(scope);
         }
         is_unit
     }
+}
+
+pub(super) fn define_imaginary_unit(scope: &mut Scope) {
+    scope.define(IMAGINARY_UNIT, Typing::NUMBER);
+    scope.define_complex(IMAGINARY_UNIT);
 }
 
 /// The imaginary unit.

@@ -7,7 +7,7 @@
 
 use std::collections::HashMap;
 
-use super::form::{IMAGINARY_UNIT, imaginary_unit};
+use super::form::{IMAGINARY_UNIT, define_imaginary_unit, imaginary_unit};
 use super::texts_of;
 use gumption_engine::model::formula::{Formula, Scope, Typing};
 use gumption_engine::number::ComplexNumber;
@@ -54,8 +54,7 @@ pub(super) fn inferred(
     let has_imaginary_unit = !parameters.iter().any(|(name, ..)| name == IMAGINARY_UNIT);
     let with_imaginary_unit = |mut scope: Scope| {
         if has_imaginary_unit {
-            scope.define(IMAGINARY_UNIT, Typing::NUMBER);
-            scope.define_complex(IMAGINARY_UNIT);
+            define_imaginary_unit(&mut scope);
         }
         scope
     };

@@ -327,7 +327,7 @@ fn one_way(about: &str, words: &[&str], whole: Value) -> Value {
 /// Keys of the response of a waveform.
 pub(crate) const RESPONSE: &[Key] = keys![
     "x" => referenced("points", "The frequencies of a calibration, exact."),
-    "y" => referenced("complex-ordinates", "The response at these."),
+    "y" => referenced("complex-points", "The response at these."),
     "correlation" => described(
         "number",
         "Correlation coefficient of the errors of any two points; 0 unless told.",

@@ -28,7 +28,15 @@ pub(crate) struct FitSide<'a> {
     residual_standard_deviation: Option<f64>,
     #[serde(skip_serializing_if = "Vec::is_empty")]
     degrees: Vec<DegreeSide>,
-    residuals: Vec<f64>,
+    residuals: ResidualsSide,
+}
+
+/// Residuals; of complex points the relative ones of the modulus, and those of the phase in radians.
+#[derive(Serialize)]
+#[serde(untagged)]
+enum ResidualsSide {
+    Real(Vec<f64>),
+    Complex { relative_modulus: Vec<f64>, phase: Vec<f64> },
 }
 
 #[derive(Serialize)]
@@ -53,6 +61,7 @@ impl<'a> FitSide<'a> {
         let (form, degree, origin) = match &fit.curve {
             Curve::Polynomial { degree: 1, origin } => ("straight-line", None, *origin),
             Curve::Polynomial { degree, origin } => ("polynomial", Some(*degree), *origin),
+            _ if fit.is_complex() => ("complex-formula", None, 0.0),
             _ => ("formula", None, 0.0),
         };
         let coefficient = |(number, (name, unit)): (usize, &'a (String, gumption_units::Unit))| {
@@ -62,6 +71,14 @@ impl<'a> FitSide<'a> {
                 unit: unit.text(),
             };
             (own_name(name), side)
+        };
+        let residuals = if fit.is_complex() {
+            let beside = fit.complex_residuals();
+            let beside = beside.iter().map(|residual| (residual.modulus(), residual.phase()));
+            let (relative_modulus, phase) = beside.unzip();
+            ResidualsSide::Complex { relative_modulus, phase }
+        } else {
+            ResidualsSide::Real(fit.residuals())
         };
         let row = |i: usize| (0..fit.count()).map(|j| fit.covariance(i, j)).collect();
         Self {
@@ -79,7 +96,7 @@ impl<'a> FitSide<'a> {
             valid: fit.is_valid(),
             residual_standard_deviation: fit.factor,
             degrees: fit.degrees.iter().map(DegreeSide::from).collect(),
-            residuals: fit.residuals(),
+            residuals,
         }
     }
 }

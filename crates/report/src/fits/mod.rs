@@ -10,6 +10,8 @@ pub(crate) use sheets::{STATED, correlations};
 pub(crate) use words::equation;
 
 use super::document::Document;
+use crate::plot::Axis;
+use gumption_engine::number::elementary::pow;
 use gumption_engine::regression::CurveFunction;
 use gumption_engine::task::Coverage;
 
@@ -43,9 +45,16 @@ pub(crate) fn factor(curve: &CurveFunction, coverage: Coverage) -> f64 {
     }
 }
 
-/// So many places at equal distances over the range of the points.
+/// So many places at equal distances over the range of the points; at equal ratios where the points of
+/// a complex curve are spaced so.
 pub(crate) fn places(curve: &CurveFunction, count: usize) -> impl Iterator<Item = f64> {
-    let [least, most] = curve.fit.points.range();
+    let points = &curve.fit.points;
+    let [least, most] = points.range();
+    let is_geometric = points.is_complex() && Axis::over(points.x.iter().copied()).is_logarithmic();
     let last = count.saturating_sub(1).max(1) as f64;
-    (0..count).map(move |k| least + (most - least) * (k as f64 / last))
+    (0..count).map(move |k| match (k as f64 / last, is_geometric) {
+        (share, true) if 0.0 < share && share < 1.0 => least * pow(most / least, share),
+        (1.0, true) => most,
+        (share, _) => least + (most - least) * share,
+    })
 }

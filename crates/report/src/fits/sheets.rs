@@ -68,26 +68,37 @@ pub(super) fn degrees(curve: &CurveFunction) -> Option<Sheet> {
     Some(sheet)
 }
 
-/// The curve with its expanded uncertainty over the range.
+/// The curve with its expanded uncertainty over the range; of a complex one modulus and phase.
 pub(super) fn statement(curve: &CurveFunction, coverage: Coverage, digits: u32) -> Sheet {
     let k = factor(curve, coverage);
     let at: Vec<f64> = places(curve, STATED).collect();
-    let values: Vec<(f64, f64)> =
-        at.iter().map(|x| (curve.fit.at(*x), k * curve.fit.uncertainty_at(*x))).collect();
-    let unit = |name: &str, unit: &gumption_units::Unit| match unit_text(unit).trim() {
+    let unit = |name: &str, unit: &str| match unit.trim() {
         "" | "1" => name.to_owned(),
         text => format!("{name}\n{}", plain(text)),
     };
-    let texts: Vec<(String, String)> =
-        values.iter().map(|(y, u)| with_uncertainty(*y, *u, digits)).collect();
     let mut sheet = Sheet::default();
-    sheet.figures(&unit("x", &curve.x), at.iter().map(|x| Figure::of(*x, exact(to_digits(*x, 6)))));
+    let x = at.iter().map(|x| Figure::of(*x, exact(to_digits(*x, 6))));
+    sheet.figures(&unit("x", &unit_text(&curve.x)), x);
+    let mut state = |[name, u_name]: [&str; 2], y_unit: &str, values: Vec<(f64, f64)>| {
+        let text = |&(y, u): &(f64, f64)| with_uncertainty(y, u, digits);
+        let texts: Vec<(String, String)> = values.iter().map(text).collect();
+        let each = values.iter().zip(&texts);
+        let of_y = each.clone().map(|((y, _), t)| Figure::of(*y, t.0.clone()));
+        sheet.figures(&unit(name, y_unit), of_y);
+        sheet.figures(&unit(u_name, y_unit), each.map(|((_, u), t)| Figure::of(*u, t.1.clone())));
+    };
     let name = format!("{}(x)", plain(&curve.fit.name));
-    let each = values.iter().zip(&texts);
-    sheet.figures(
-        &unit(&name, &curve.y),
-        each.clone().map(|((y, _), t)| Figure::of(*y, t.0.clone())),
-    );
-    sheet.figures(&unit("U", &curve.y), each.map(|((_, u), t)| Figure::of(*u, t.1.clone())));
+    let y_unit = unit_text(&curve.y);
+    if curve.fit.is_complex() {
+        let polar: Vec<_> = at.iter().map(|x| curve.fit.polar_at(*x)).collect();
+        let modulus = polar.iter().map(|of| (of.modulus, k * of.modulus_uncertainty)).collect();
+        let phase =
+            polar.iter().map(|of| (of.phase.to_degrees(), k * of.phase_uncertainty.to_degrees()));
+        state([&format!("abs {name}"), "U of abs"], &y_unit, modulus);
+        state([&format!("arg {name}"), "U of arg"], "deg", phase.collect());
+    } else {
+        let value = |x: &f64| (curve.fit.at(*x), k * curve.fit.uncertainty_at(*x));
+        state([&name, "U"], &y_unit, at.iter().map(value).collect());
+    }
     sheet
 }

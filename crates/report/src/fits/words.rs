@@ -31,8 +31,9 @@ pub(super) fn form(curve: &CurveFunction) -> String {
         (false, ..) => "generalized distance regression, with uncertain x and y",
     };
     format!(
-        "{equation}, fitted to {} points from x = {} to {}{} by {method}.",
-        points.len(),
+        "{equation}, fitted to {} {}points from x = {} to {}{} by {method}.",
+        points.count(),
+        if points.is_complex() { "complex " } else { "" },
         exact(least),
         exact(most),
         unit(&curve.x)
@@ -101,6 +102,16 @@ pub(super) fn agreement(curve: &CurveFunction) -> String {
 pub(super) fn statement(curve: &CurveFunction, coverage: Coverage) -> String {
     let k = factor(curve, coverage);
     let [least, most] = curve.fit.points.range();
+    if curve.fit.is_complex() {
+        return format!(
+            "From x = {} to {} modulus and phase of the calibration function have the expanded \
+             uncertainties U, with the coverage factor k = {}; u^2 of each is the sum over all \
+             pairs of parameters: their covariance times the derivatives with respect to both:",
+            exact(least),
+            exact(most),
+            significant(k, 3)
+        );
+    }
     format!(
         "From x = {} to {} the calibration function has the expanded uncertainty U(x) = k u(x), \
          with the coverage factor k = {}, where u(x)^2 is the sum over all pairs of coefficients: \

@@ -74,6 +74,11 @@ impl Axis {
         Self { log: true, ends: [log10(from), log10(to)] }
     }
 
+    /// Whether positions are logarithms.
+    pub(crate) fn is_logarithmic(&self) -> bool {
+        self.log
+    }
+
     /// The position of a value.
     pub(crate) fn position(&self, value: f64) -> f64 {
         if self.log { log10(value) } else { value }
