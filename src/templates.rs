@@ -30,6 +30,7 @@ const TEMPLATES: &[(&str, &str)] = templates! {
     "relative-sensitivity": "relative_sensitivity",
     "phase-budget": "phase_budget",
     "measuring-chain": "measuring_chain",
+    "gravity-rotation": "gravity_rotation",
 };
 
 /// The built-in measurements with their templates.

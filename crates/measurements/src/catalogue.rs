@@ -37,6 +37,7 @@ pub fn catalogue() -> &'static Catalogue {
             of::<RelativeSensitivity<()>>().any_unit(&["s_f", "s_ref"]),
             of::<PhaseBudget<()>>(),
             of::<MeasuringChain<()>>(),
+            of::<GravityRotation<()>>(),
         ])
     });
     &ALL
