@@ -20,9 +20,9 @@ measurement! {
     /// a = g (sin(theta) sin(phi), sin(theta) cos(phi), cos(theta)) in an ideal gimbal: a sensor
     /// at rest with z upwards reads +g on z. The sequence turns the sensor about each of its axes
     /// held horizontal, in steps of 90 deg: orientations 1 to 4 with phi = 0 (about x), 5 to 8 with
-    /// phi = 90 deg (about y), 9 to 12 with theta = 90 deg and phi turning (about z). All
-    /// sequences begin at `start`: 0 deg takes each of the six faces twice, 45 deg the twelve
-    /// edges.
+    /// phi = 90 deg (about y), 9 to 12 with theta = 90 deg and phi turning (about z). The step of
+    /// 90 deg is a choice of this model. Each turn begins at `start`: 0 deg takes each of the six
+    /// faces twice, 45 deg the twelve edges.
     ///
     /// The errors of the gimbal have the expectation 0, or their known values. The true angles are
     /// theta + outer_zero + outer_step theta/(90 deg) and phi + inner_step phi/(90 deg). The zero
