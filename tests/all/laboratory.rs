@@ -93,7 +93,7 @@ fn interferometer_by_sine_approximation() {
     let displacement = ready.number("phi_M", "value") * 632.81e-9 / (4.0 * std::f64::consts::PI);
     let a = displacement * (2.0 * std::f64::consts::PI * 160.0).powi(2);
     let phase = ["phi_Q", "phi_F", "phi_VD", "phi_MD", "phi_PD", "phi_RE"];
-    let ppm = 1f64.powi(2) + (2.0 * 50.0).powi(2) / 3.0;
+    let ppm = 1.0 + 100f64.powi(2) / 3.0;
     let of_a = ready.squares(&phase) + ppm * 1e-8;
     assert_near("a", ready.result("a"), [a, a * of_a.sqrt() / 100.0]);
     // readings 0.02, -0.03, 0.01, 0.04, -0.05, 0.01: squares 0.0056, over 5 and 6
