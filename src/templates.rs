@@ -31,6 +31,7 @@ const TEMPLATES: &[(&str, &str)] = templates! {
     "phase-budget": "phase_budget",
     "measuring-chain": "measuring_chain",
     "seismic-response": "seismic_response",
+    "gravity-rotation": "gravity_rotation",
 };
 
 /// The built-in measurements with their templates.

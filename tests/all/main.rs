@@ -36,6 +36,7 @@ mod help;
 mod integrity;
 mod interrupt;
 mod intervals;
+mod laboratory;
 mod manual;
 mod manual_pictures;
 mod observe;

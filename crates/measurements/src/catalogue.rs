@@ -38,6 +38,7 @@ pub fn catalogue() -> &'static Catalogue {
             of::<PhaseBudget<()>>(),
             of::<MeasuringChain<()>>(),
             of::<SeismicResponse<()>>().any_unit(&["S0", "modulus"]),
+            of::<GravityRotation<()>>(),
         ])
     });
     &ALL

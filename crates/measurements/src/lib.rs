@@ -8,6 +8,7 @@ mod catalogue;
 pub use catalogue::catalogue;
 
 mod axis_sensitivity;
+mod gravity_rotation;
 mod inclined_plane;
 mod inclined_plane_spurious;
 mod inclined_plane_spurious_vector;
@@ -23,9 +24,11 @@ mod seismic_response;
 mod sensitivity;
 mod sensitivity_matrix;
 mod spurious_component;
+mod triple;
 mod wave_interference;
 
 pub use axis_sensitivity::{AxisSensitivities, AxisSensitivity};
+pub use gravity_rotation::{GravityRotation, GravityRotationParameters};
 pub use inclined_plane::{InclinedPlane, InclinedPlaneAccelerations};
 pub use inclined_plane_spurious::{InclinedPlaneSpurious, InclinedPlaneSpuriousAccelerations};
 pub use inclined_plane_spurious_vector::{

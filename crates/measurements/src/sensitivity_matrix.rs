@@ -1,5 +1,6 @@
 //! Main and transverse sensitivities of a sensor of three axes.
 
+use super::triple::{solve, sum};
 use gumption_engine::measurement;
 use gumption_engine::model::typed::Equations;
 use gumption_engine::number::Number;
@@ -119,26 +120,6 @@ measurement! {
     }
 }
 
-/// Three quantities along x, y and z.
-type Triple<T> = [T; 3];
-
-fn dot<T: Number>(a: Triple<T>, b: Triple<T>) -> T {
-    let [a_x, a_y, a_z] = a;
-    let [b_x, b_y, b_z] = b;
-    a_x * b_x + a_y * b_y + a_z * b_z
-}
-
-fn cross<T: Number>(a: Triple<T>, b: Triple<T>) -> Triple<T> {
-    let [a_x, a_y, a_z] = a;
-    let [b_x, b_y, b_z] = b;
-    [a_y * b_z - a_z * b_y, a_z * b_x - a_x * b_z, a_x * b_y - a_y * b_x]
-}
-
-/// Sum over the poses of the products of two quantities.
-fn sum<T: Number>(a: [T; 6], b: [T; 6]) -> T {
-    a.into_iter().zip(b).fold(T::constant(0.0), |sum, (a, b)| sum + a * b)
-}
-
 impl<T: Number> Equations<T> for SensitivityMatrix<T> {
     type Outputs = SensitivityMatrixElements<T>;
 
@@ -162,21 +143,16 @@ impl<T: Number> Equations<T> for SensitivityMatrix<T> {
             [self.v_y_1, self.v_y_2, self.v_y_3, self.v_y_4, self.v_y_5, self.v_y_6],
             [self.v_z_1, self.v_z_2, self.v_z_3, self.v_z_4, self.v_z_5, self.v_z_6],
         ];
-        // The rows of the inverse of a matrix are the cross products of its columns over the
-        // determinant; A A^T is symmetric, so rows and columns are alike.
-        let [x, y, z] = a.map(|row| a.map(|other| sum(row, other)));
-        let (of_x, of_y, of_z) = (cross(y, z), cross(z, x), cross(x, y));
-        let determinant = dot(x, of_x);
-        let [[s_xx, s_xy, s_xz], [s_yx, s_yy, s_yz], [s_zx, s_zy, s_zz]] = v.map(|outputs| {
-            let moments = a.map(|row| sum(outputs, row));
-            [of_x, of_y, of_z].map(|row| dot(moments, row) / determinant)
-        });
+        let normal = a.map(|row| a.map(|other| sum(row, other)));
+        let moments = v.map(|outputs| a.map(|row| sum(outputs, row)));
+        let [[s_xx, s_xy, s_xz], [s_yx, s_yy, s_yz], [s_zx, s_zy, s_zz]] = solve(normal, moments);
         SensitivityMatrixElements { s_xx, s_xy, s_xz, s_yx, s_yy, s_yz, s_zx, s_zy, s_zz }
     }
 }
 
 #[cfg(test)]
 mod tests {
+    use super::super::triple::dot;
     use super::*;
     use gumption_engine::model::typed::Measurement;
 

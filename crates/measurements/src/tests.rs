@@ -23,6 +23,9 @@ fn draw(model: &str, input: &str, unit: &str, random: &mut Xoshiro256PlusPlus) -
         // the modulus of a difference
         ("normalized-error", "x1") => between(5.0, 6.0),
         ("normalized-error", "r") => between(-0.5, 0.5),
+        // directions of the axes away from the case's, where angles have their cuts
+        ("gravity-rotation", "start") => between(0.0, 90.0),
+        ("gravity-rotation", _) if unit == "deg" => between(-5.0, 5.0),
         _ => match unit {
             "m/s^2" => between(1.0, 10.0),
             "deg" => between(5.0, 85.0) + 90.0 * between(-2.0, 2.0).floor(),
@@ -140,6 +143,7 @@ fn compute(name: &str, inputs: &[f64]) -> Vec<f64> {
     }
     first_of![
         AxisSensitivity,
+        GravityRotation,
         InclinedPlane,
         InclinedPlaneSpurious,
         InclinedPlaneSpuriousVector,
@@ -335,11 +339,12 @@ type Expected<'a> = (&'a str, &'a [(&'a str, f64)], &'a [(&'a str, f64, f64)]);
 
 /// Estimates and standard uncertainties that were computed from the equations, written as formulas,
 /// with 40 digits and differences: the measurements of the papers with the uncertainties of the
-/// ready files. The differences are good to 1e-6 of u.
+/// ready files; for the gravity field from rotation matrices and a design matrix with a column of
+/// ones. The differences are good to 1e-6 of u.
 #[test]
 fn seeds_as_formulas_and_as_typed_models_agree() {
     let third = [("rotation", 210.0)];
-    let cases: [Expected; 6] = [
+    let cases: [Expected; 7] = [
         (
             "inclined-plane",
             &[],
@@ -387,6 +392,27 @@ fn seeds_as_formulas_and_as_typed_models_agree() {
             &[
                 ("gain", 95.307_277_555_572_61, 0.245_184_295_347_382_6),
                 ("phase", 22.409_837_371_493_264, 0.529_174_326_617_697_1),
+            ],
+        ),
+        (
+            "gravity-rotation",
+            &[],
+            &[
+                ("s_x", 418.281_419_930_885_19, 0.020_839_514_183_31),
+                ("s_y", 417.135_096_715_554_43, 0.020_839_394_217_20),
+                ("s_z", 421.676_240_747_256_41, 0.020_848_757_616_48),
+                ("angle_xy", 90.073_410_412_337_114, 0.004_897_619_506_44),
+                ("angle_yz", 90.110_931_088_662_907, 0.005_106_207_130_76),
+                ("angle_zx", 90.067_957_673_927_911, 0.005_077_945_463_21),
+                ("o_x", 37.933_333_333_333_333, 0.185_260_568_816_09),
+                ("o_y", -20.733_333_333_333_33, 0.187_012_031_845_99),
+                ("o_z", 63.708_333_333_333_333, 0.180_615_485_838_33),
+                ("direction_xy", 0.546_582_228_524_608_2, 0.100_091_405_349_37),
+                ("direction_xz", -0.145_293_685_264_555, 0.100_137_432_370_56),
+                ("direction_yz", 0.718_685_764_303_767_2, 0.100_138_502_960_49),
+                ("direction_yx", -0.618_176_258_181_241, 0.100_182_367_384_85),
+                ("direction_zx", 0.085_232_125_509_984_1, 0.100_132_147_611_70),
+                ("direction_zy", -0.828_703_974_638_712, 0.100_121_758_787_99),
             ],
         ),
     ];

@@ -107,6 +107,20 @@ const CHAIN_TYPED: Bench = Bench {
     data: "frequency,m,p,d\n0.5,1,0.1,0.01\n20,1,0.2,0.01\n",
 };
 
+const GIMBAL: Bench = Bench {
+    name: "gravity rotation",
+    file: r#"{"inputs": {
+        "g": {"unit": "m/s^2", "distribution": "normal", "mean": 9.8, "std": 0.0001},
+        "zero": {"unit": "deg", "distribution": "rectangular", "mean": 0, "half_width": 0.01}},
+      "conditions": {"theta": {"unit": "deg"}, "phi": {"unit": "deg"}},
+      "equations": {"outer": "theta + zero", "inner": "phi + 0*zero", "a_x": "g*sin(outer)*sin(inner)",
+        "a_y": "g*sin(outer)*cos(inner)", "a_z": "g*cos(outer)"},
+      "outputs": {"a_x": {"unit": "m/s^2"}, "a_y": {"unit": "m/s^2"}, "a_z": {"unit": "m/s^2"}},
+      "observations": {"file": "data.csv", "columns": {"a_x": {"value": "x"}, "a_y": {"value": "y"},
+        "a_z": {"value": "z"}}}"#,
+    data: "theta,phi,x,y,z\n35,30,3,5,8\n90,120,8,-5,0\n",
+};
+
 const SIGNAL: Bench = Bench {
     name: "signal over time",
     file: r#"{"inputs": {"f": {"unit": "Hz", "distribution": "constant", "value": 0.5}},
@@ -139,7 +153,7 @@ const LOOP: Bench = Bench {
            3,6.1\n3,6.2\n5,10.1\n5,9.8\n3,6.1\n3,6\n1,2\n1,2.2\n",
 };
 
-const BENCHES: [Bench; 10] = [
+const BENCHES: [Bench; 11] = [
     PLANE,
     PLANE_TYPED,
     TABLE,
@@ -147,6 +161,7 @@ const BENCHES: [Bench; 10] = [
     TABLE_CORRECTED,
     CHAIN,
     CHAIN_TYPED,
+    GIMBAL,
     SIGNAL,
     OTHER,
     LOOP,
@@ -495,6 +510,21 @@ fn effects_of_the_measuring_chain() {
         let mut all = vec![0.0, f];
         all.extend(parameters);
         assert_close(name, &program.evaluate(&all), &expected);
+    }
+}
+
+#[test]
+fn effects_of_the_gravity_rotation() {
+    let cases: [(&str, &[f64], [f64; 3]); 2] = [
+        (
+            "gimbal-misalignment",
+            &[0.3, -0.2],
+            [2.8791909393185096, 4.8282377587988625, 8.0273519718182992],
+        ),
+        ("step-error", &[0.4, -0.5], [2.8071844578414846, 4.8950146753378059, 8.0123995624207812]),
+    ];
+    for (name, parameters, expected) in cases {
+        assert_close(name, &with(&GIMBAL, name, parameters, &[35.0, 30.0]), &expected);
     }
 }
 
