@@ -50,15 +50,17 @@ class Answer(dict[str, Any]):
         arguments: Sequence[str],
         model: _gumption.Model | None = None,
         text: str | None = None,
+        held: Sequence[tuple[str, bytes]] = (),
     ) -> None:
         self._asked = (list(arguments), model, text)
+        self._held = tuple(held)
         answer, notes, self.yes = self._call(["--format", "json"])
         self.notes = [line.removeprefix("note: ") for line in notes.splitlines()]
         super().__init__(json.loads(answer))
 
     def _call(self, more: Sequence[str]) -> tuple[bytes, str, bool]:
         arguments, model, text = self._asked
-        return called([*arguments, *more], model, text)
+        return called([*arguments, *more], model, text, self._held)
 
     def to(self, format: str) -> bytes:  # noqa: A002 - the name that the command line has
         """The answer in another format of the command, such as ``"table"`` or ``"html"``.
@@ -113,11 +115,13 @@ class Answer(dict[str, Any]):
     def __reduce__(self) -> Any:
         arguments, model, text = self._asked
         source = None if model is None else model.source
-        return _asked_again, (arguments, source, text)
+        return _asked_again, (arguments, source, text, self._held)
 
 
-def _asked_again(arguments: Sequence[str], source: Any, text: str | None) -> Answer:
-    return Answer(arguments, None if source is None else _gumption.Model(*source), text)
+def _asked_again(
+    arguments: Sequence[str], source: Any, text: str | None, held: Sequence[tuple[str, bytes]]
+) -> Answer:
+    return Answer(arguments, None if source is None else _gumption.Model(*source), text, held)
 
 
 class _Together(Answer):
@@ -234,18 +238,75 @@ def gap_check(
     return Answer(["gap-check", path, *options], None, text)
 
 
-def observe(recipe: str | os.PathLike[str] | Mapping[str, Any], *, seed: int | None = None) -> Answer:
-    """Determine amplitudes, phases and delays with their uncertainties from raw recordings.
+def observe(
+    recipe: str | os.PathLike[str] | Mapping[str, Any],
+    recordings: Mapping[str, Any] | None = None,
+    *,
+    seed: int | None = None,
+) -> Answer:
+    """Determine amplitudes, phases and delays from raw recordings, or correct transient signals.
 
     Parameters
     ----------
     recipe : path-like or mapping
         The recipe, a file or its content.
+    recordings : mapping of str to array, DataFrame or mapping, optional
+        By the names of the recipe's recordings, values in place of their files; the recipe then is a mapping. Columns
+        of an array are named by their numbers, from 1 on; those of a table by their names.
     seed : int, optional
         Seed of the random streams.
+
+    Returns
+    -------
+    Answer
+        For corrected signals ``answer["rows"][0]["waveforms"]["channel"]`` has ``values``,
+        ``standard_uncertainties`` and ``quantities``; ``answer.to_pandas()`` is the table of the samples.
+
+    Raises
+    ------
+    ModelError
+        Where recipe or recordings are wrong.
     """
-    path, text = _given(recipe)
-    return Answer(["observe", path, *_options(seed=seed)], None, text)
+    options = _options(seed=seed)
+    if recordings is None:
+        path, text = _given(recipe)
+        return Answer(["observe", path, *options], None, text)
+    if not isinstance(recipe, Mapping):
+        raise _gumption.ModelError("`recordings` has the values of recordings; give the recipe as a mapping, too")
+    own = recipe.get("recordings")
+    own = dict(own) if isinstance(own, Mapping) else {}
+    held: list[tuple[str, bytes]] = []
+    for name, values in recordings.items():
+        if not isinstance(own.get(name), Mapping):
+            known = ", ".join(f"`{other}`" for other in own) or "none"
+            raise _gumption.ModelError(f"`recordings` names `{name}`; the recordings of the recipe are {known}")
+        file, content = _recording(str(name), values)
+        own[name] = {**own[name], "file": file}
+        held.append((file, content))
+    text = json.dumps({**recipe, "recordings": own})
+    return Answer(["observe", "-", *options], None, text, held)
+
+
+def _recording(name: str, values: Any) -> tuple[str, bytes]:
+    """The name and the content of a file with the values of a recording."""
+    import numpy as np
+
+    from gumption._frames import columns, csv
+
+    if isinstance(values, Mapping) or hasattr(values, "columns"):
+        table = {key: np.asarray(column, dtype=np.float64) for key, column in columns(values).items()}
+        lengths = {key: len(column) for key, column in table.items()}
+        if len(set(lengths.values())) > 1:
+            raise _gumption.ModelError(f"the columns of the recording `{name}` have different lengths: {lengths}")
+        return f"{name}.csv", csv(table)
+    array = np.asarray(values, dtype=np.float64)
+    if array.ndim not in (1, 2):
+        raise _gumption.ModelError(
+            f"the recording `{name}` has the shape {array.shape}; it needs one or two dimensions (samples, channels)"
+        )
+    content = io.BytesIO()
+    np.save(content, array)
+    return f"{name}.npy", content.getvalue()
 
 
 def compare(
