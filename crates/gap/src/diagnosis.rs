@@ -504,6 +504,12 @@ impl ValueGap {
         self.measured - self.before
     }
 
+    /// The comparison error E = S - D of the sim (ASME V&V 20-2009, 1-5); its standard uncertainty, the
+    /// validation standard uncertainty u_val, is `u_before`.
+    pub fn comparison_error(&self) -> f64 {
+        -self.before
+    }
+
     /// What the corrected sim says; where data were wrapped into a turn, on the side of the measured
     /// value.
     pub fn corrected(&self) -> f64 {

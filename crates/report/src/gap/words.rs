@@ -504,6 +504,22 @@ pub(super) fn gap(diagnosis: &Diagnosis) -> String {
     }
 }
 
+/// The comparison errors of the sim beside their validation standard uncertainties, in the words of ASME
+/// V&V 20-2009; `None` where they were not compared.
+pub(super) fn validation(diagnosis: &Diagnosis) -> Option<String> {
+    let shrinkage = &diagnosis.shrinkage;
+    let [share, _] = shrinkage.within;
+    let values = shrinkage.values;
+    (values > 0 && share.is_finite()).then(|| {
+        format!(
+            "Comparison error E = S - D (sim less measured value) and validation standard uncertainty \
+             u_val (u_val^2 = u_num^2 + u_input^2 + u_D^2; ASME V&V 20-2009): |E| is at most 2 u_val for \
+             {} of {values} values.",
+            exact((share * values as f64).round())
+        )
+    })
+}
+
 /// What is said where no region is listed.
 pub(super) fn no_region(diagnosis: &Diagnosis) -> &'static str {
     if diagnosis.interrupted {
