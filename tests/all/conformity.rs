@@ -245,7 +245,7 @@ fn statements_of_four_levels() {
     assert!(found["outputs"]["y"]["conformity"].get("statement").is_none());
     // both limits, a sweep and the formula of the workbook
     let swept = r#"{"inputs": {"e": {"distribution": "normal", "mean": 0, "std": 0.05}},
-        "conditions": {"x": {"values": [0.75, 0.85, 0.95, 1.0, 1.05, 1.15, 1.25]}},
+        "conditions": {"x": {"values": [0.75, 0.85, 0.95, 1.0, 1.07, 1.15, 1.25]}},
         "equations": {"y": "x + e"}, "outputs": {"y": {"unit": "1", "tolerance": {"lower": 0.9,
         "upper": 1.1, "guard_band": 0.5, "statement": "non-binary"}}}}"#;
     let (_, page, _) = run(swept, &options);
