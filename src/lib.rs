@@ -338,11 +338,11 @@ pub mod number {
 /// Evaluation by the law of propagation and by the Monte Carlo method.
 pub mod propagate {
     pub use gumption_engine::propagate::{
-        Accuracy, CapabilityStatement, Conformity, Control, Evaluation, EvaluationError,
-        GlobalRisks, Inherited, JointRegion, Noiseless, OutputEvaluation, Region, RegionEvaluation,
-        RegionValidation, RowEvaluation, SampledRegion, Scatter, SecondOrder, SmallestRegion,
-        convergence, evaluate, first_trials, for_each_block, histograms, quantiles, trial_hash,
-        warnings,
+        Accuracy, CapabilityStatement, Conformity, ConformityLevel, Control, Evaluation,
+        EvaluationError, GlobalRisks, Inherited, JointRegion, Noiseless, OutputEvaluation, Region,
+        RegionEvaluation, RegionValidation, RowEvaluation, SampledRegion, Scatter, SecondOrder,
+        SmallestRegion, convergence, evaluate, first_trials, for_each_block, histograms, quantiles,
+        trial_hash, warnings,
     };
 
     /// The law of propagation of uncertainty (JCGM 100).

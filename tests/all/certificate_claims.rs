@@ -509,11 +509,41 @@ fn a_guard_band_may_be_a_multiple_of_u() {
     for (more, part) in [
         (json!({"guard_band": 1, "risk": 0.05}), "`guard_band`"),
         (json!({"guard_band": -1}), "above 0, in multiples of U"),
+        (json!({"risk": 0.05, "statement": "non-binary"}), "needs the key `guard_band`"),
+        (json!({"guard_band": 1, "statement": "four"}), "one of `binary`"),
     ] {
         let file = model(json!({"x": normal("V", 1.0, 0.05)}), "x", Some(tolerance(more)));
         let folder = folder(&[("m.json", &file)]);
         let (success, _, error) = said(folder.path(), &["check", "m.json"]);
         assert!(!success && error.contains(part), "{error}");
+    }
+}
+
+/// The four levels of ILAC-G8:09/2019, 4.2.3, on the page and in the digital certificate, whose schema has
+/// a status for each: with U = 0.1 V below 1.1 V, P(1.05 V) = cdf(1) = 0.8413.
+#[test]
+fn a_certificate_states_four_levels() {
+    let levels = [
+        (0.99, "Pass: the result", "pass"),
+        (1.05, "Conditional pass: the result is within the tolerance", "conditionalPass"),
+        (1.15, "Conditional fail: the result is outside the tolerance", "conditionalFail"),
+        (1.25, "Fail: the result", "fail"),
+    ];
+    let tolerance = json!({"upper": 1.1, "guard_band": 1, "statement": "non-binary"});
+    for (mean, stated, status) in levels {
+        let inputs = json!({"x": normal("V", mean, 0.05)});
+        let file = model(inputs, "x", Some(tolerance.clone()));
+        let settings = json!({"monte_carlo": {"trials": 0}});
+        let certificate = certificate(rows(&["y"]), settings);
+        let folder = folder(&[("m.json", &file), ("c.json", &certificate)]);
+        let page = |format: &str| {
+            output(folder.path(), &["certificate", "c.json", "--format", format, "--quiet"])
+        };
+        let said = page("markdown");
+        assert!(said.contains(stated) && said.contains("ILAC-G8:09/2019, 4.2.3"), "{said}");
+        assert!(mean != 1.05 || said.contains("conforms with a probability of 84.13 %"), "{said}");
+        let dcc = page("dcc");
+        assert!(dcc.contains(&format!("<dcc:conformity>{status}<")), "{dcc}");
     }
 }
 

@@ -214,6 +214,59 @@ fn guard_bands_follow_the_distribution() {
     }
 }
 
+/// The levels of ILAC-G8:09/2019, 4.2.3, with w = U = 2 u = 0.1 um at an upper limit of 1.1 um: pass up to
+/// TL - w, conditional pass up to TL, conditional fail up to TL + w, fail beyond. The risks of a normal
+/// distribution are sf(2), sf(1), 1/2, sf(1), sf(2) and sf(3) to six digits: below 2.5 % for pass and
+/// fail, and up to 50 % for the conditional ones, as its Table 1 says.
+#[test]
+fn statements_of_four_levels() {
+    let tolerance = r#""tolerance": {"upper": 1.1, "guard_band": 1, "statement": "non-binary"}"#;
+    let cases = [
+        (1.0, "pass", "false_acceptance", 0.022_750),
+        (1.05, "conditional pass", "false_acceptance", 0.158_655),
+        (1.1, "conditional pass", "false_acceptance", 0.5),
+        (1.15, "conditional fail", "false_rejection", 0.158_655),
+        (1.2, "conditional fail", "false_rejection", 0.022_750),
+        (1.25, "fail", "false_rejection", 0.001_350),
+    ];
+    let options = ["--trials", "0", "--k", "2"];
+    for (mean, level, wrong, risk) in cases {
+        let text = model(mean, 0.05, tolerance);
+        let found = answer_with(&text, &options);
+        let of = &found["outputs"]["y"]["conformity"];
+        assert_eq!((&of["statement"], &of["conforms"]), (&json!(level), &json!(level == "pass")));
+        assert!((number(&of["specific_risk"][wrong]) - risk).abs() < 1e-6, "{of}");
+        let (code, page, _) = run(&text, &[&options[..], &["--fail", "--full"]].concat());
+        assert_eq!(code, Some(if level == "pass" { 0 } else { 3 }));
+        assert!(page.contains(&format!("Decision: {level}.")), "{page}");
+    }
+    let binary = model(1.05, 0.05, r#""tolerance": {"upper": 1.1, "guard_band": 1}"#);
+    let found = answer_with(&binary, &options);
+    assert!(found["outputs"]["y"]["conformity"].get("statement").is_none());
+    // both limits, a sweep and the formula of the workbook
+    let swept = r#"{"inputs": {"e": {"distribution": "normal", "mean": 0, "std": 0.05}},
+        "conditions": {"x": {"values": [0.75, 0.85, 0.95, 1.0, 1.07, 1.15, 1.25]}},
+        "equations": {"y": "x + e"}, "outputs": {"y": {"unit": "1", "tolerance": {"lower": 0.9,
+        "upper": 1.1, "guard_band": 0.5, "statement": "non-binary"}}}}"#;
+    let (_, page, _) = run(swept, &options);
+    let page = page.split_whitespace().collect::<Vec<_>>().join(" ");
+    let counted = "pass 2, conditional pass 1, conditional fail 2, fail 2 of 7 rows.";
+    assert!(page.contains(counted), "{page}");
+    let folder = tempfile::tempdir().expect("a folder");
+    fs::write(folder.path().join("m.json"), model(1.15, 0.05, tolerance)).expect("written");
+    let asked = ["run", "m.json", "--format", "xlsx", "--output", "m.xlsx", "--trials", "0"];
+    assert!(command().current_dir(folder.path()).args(asked).status().expect("runs").success());
+    let mut book: Xlsx<_> = open_workbook(folder.path().join("m.xlsx")).expect("a workbook");
+    let name = book.sheet_names()[0].clone();
+    let has = |text: &str, all: &[String]| all.iter().any(|cell| cell.contains(text));
+    let values = book.worksheet_range(&name).expect("a sheet");
+    let values: Vec<String> = values.used_cells().map(|(.., cell)| cell.to_string()).collect();
+    let formulas = book.worksheet_formula(&name).expect("a sheet");
+    let formulas: Vec<String> = formulas.used_cells().map(|(.., text)| text.clone()).collect();
+    assert!(has("conditional fail", &values), "{values:?}");
+    assert!(has("\"conditional fail\",\"fail\")))", &formulas), "{formulas:?}");
+}
+
 /// A capability is one for k = 2: with k = 3 it is 1.5 times as much, and the same u = 0.25 mV is decided
 /// with, w = 1.959 964 u for 2.5 %.
 #[test]

@@ -542,3 +542,44 @@ fn uncertainties_may_be_stated_for_all_rows() {
         "{said}"
     );
 }
+
+/// E = S - D and u_val^2 = u_num^2 + u_input^2 + u_D^2 of ASME V&V 20-2009 for y = 2 x with u(2) = 0.01 and
+/// u_D = 0.02, and for a column that states u_num = 0.01 x: E = 2 x - y and u_val = hypot(0.02, 0.01 x),
+/// to the rounding of the differences. Of the five |E| only 0.07 at x = 1 is above 2 u_val = 0.045.
+#[test]
+fn comparison_errors_and_validation_uncertainties() {
+    let case = |sim: &str, columns: &str| {
+        format!(
+            r#"{{{sim} "conditions": {{"x": {{}}}}, "outputs": {{"y": {{"unit": "1"}}}},
+            "observations": {{"values": {{"x": [1, 2, 3, 4, 5], "s": [2, 4, 6, 8, 10], "us": [0.01, 0.02,
+            0.03, 0.04, 0.05], "y": [2.07, 3.97, 6.02, 8.03, 10], "u": [0.02, 0.02, 0.02, 0.02, 0.02]}},
+            "columns": {{"y": {{"value": "y", "standard_uncertainty": "u"{columns}}}}}}},
+            "effects": {{"shift": {{"parameters": {{"d": {{"distribution": "normal", "mean": 0,
+            "std": 0.1}}}}, "overrides": {{"y": "y + d"}}}}}}}}"#
+        )
+    };
+    let model = r#""inputs": {"c": {"distribution": "normal", "mean": 2, "std": 0.01}},
+        "equations": {"y": "c*x"},"#;
+    let column = r#", "sim": "s", "sim_standard_uncertainty": "us""#;
+    for text in [case(model, ""), case("", column)] {
+        let folder = tempfile::tempdir().unwrap();
+        let path = folder.path().join("case.json");
+        std::fs::write(&path, text).unwrap();
+        let answer: Value =
+            serde_json::from_str(&diagnosed(&path, &["--format", "json"]).0).unwrap();
+        let rows = answer["rows"].as_array().unwrap();
+        assert_eq!(rows.len(), 5);
+        for (row, y) in rows.iter().zip([2.07, 3.97, 6.02, 8.03, 10.0]) {
+            let (x, of) = (row["conditions"]["x"].as_f64().unwrap(), &row["outputs"]["y"]);
+            let near = |key: &str, expected: f64| {
+                let found = of[key].as_f64().unwrap();
+                assert!((found - expected).abs() < 1e-12, "{key}: {found}, not {expected}");
+            };
+            near("comparison_error", 2.0 * x - y);
+            near("validation_uncertainty", 0.02_f64.hypot(0.01 * x));
+        }
+        let (page, _) = diagnosed(&path, &[]);
+        let page = page.split_whitespace().collect::<Vec<_>>().join(" ");
+        assert!(page.contains("|E| is at most 2 u_val for 4 of 5 values."), "{page}");
+    }
+}

@@ -147,6 +147,7 @@ pub(super) fn read(
         let unit_place = object.get("unit").map_or(&member.key_span, |m| &m.value.span);
         let Decision {
             guard_factor,
+            non_binary,
             specification,
             agreed,
             tolerance,
@@ -166,7 +167,7 @@ pub(super) fn read(
         output.following = follows.then(|| Arc::new(following));
         (output.period, output.capability) = (period, capability);
         (output.tolerance, output.prior, output.risk) = (tolerance, prior, risk);
-        output.guard_factor = guard_factor;
+        (output.guard_factor, output.non_binary) = (guard_factor, non_binary);
         (output.specification, output.rule_agreed) = (specification, agreed);
         outputs.outputs.push(output);
         outputs.places.push(member.key_span.clone());
@@ -182,6 +183,7 @@ struct Decision {
     prior: Option<Arc<Distribution>>,
     risk: Option<f64>,
     guard_factor: Option<f64>,
+    non_binary: bool,
     specification: Option<Arc<str>>,
     agreed: bool,
     lower: Option<OfConditions>,
@@ -217,6 +219,7 @@ impl Decision {
             object.log.report(&member.value.span, diagnostic);
         }
         let guard_factor = guard_factor(&object);
+        let non_binary = is_non_binary(&object);
         let specification = object.text("specification").map(Arc::from);
         let agreed = object.truth("agreed").unwrap_or(false);
         let prior = prior(&object, unit, results).map(Arc::new);
@@ -236,7 +239,18 @@ impl Decision {
         let ends = [lower.flatten(), upper.flatten()];
         let tolerance = tolerance(&object, unit, &ends, set);
         let [lower, upper] = ends;
-        Self { tolerance, prior, risk, guard_factor, specification, agreed, lower, upper, limits }
+        Self {
+            tolerance,
+            prior,
+            risk,
+            guard_factor,
+            non_binary,
+            specification,
+            agreed,
+            lower,
+            upper,
+            limits,
+        }
     }
 }
 
@@ -256,6 +270,25 @@ fn guard_factor(tolerance: &Object<'_>) -> Option<f64> {
         return None;
     }
     Some(found)
+}
+
+/// Whether the statement of conformity has four levels, which need a guard band.
+fn is_non_binary(tolerance: &Object<'_>) -> bool {
+    const STATEMENTS: [&str; 2] = ["binary", "non-binary"];
+    let Some(member) = tolerance.get("statement") else { return false };
+    let Some(found) = tolerance.text("statement") else { return false };
+    if !STATEMENTS.contains(&found) {
+        let (key, found) = ("statement".into(), found.to_owned());
+        let allowed = STATEMENTS.map(str::to_owned).to_vec();
+        tolerance.log.report(&member.value.span, DiagnosticKind::NotOneOf { key, found, allowed });
+        return false;
+    }
+    let non_binary = found == STATEMENTS[1];
+    if non_binary && tolerance.get("guard_band").is_none() {
+        let (key, with) = ("\"statement\": \"non-binary\"", "guard_band");
+        tolerance.log.report(&member.key_span, DiagnosticKind::OnlyWith { key, with });
+    }
+    non_binary
 }
 
 /// What was known about the items before measuring.

@@ -488,6 +488,10 @@ pub struct ValueGap {
     pub before: f64,
     /// Standard uncertainty of that residual: noise and inputs.
     pub u_before: f64,
+    /// The validation standard uncertainty (ASME V&V 20-2009, 1): that of the residual before the
+    /// correction with the stated uncertainties of the measured value and of the sim, and the inputs;
+    /// where none are stated, with the estimated noise.
+    pub u_validation: f64,
     /// Measured value less the corrected model that was fitted without its block.
     pub after: f64,
     /// Standard uncertainty of that residual: noise and what was fitted.
@@ -502,6 +506,11 @@ impl ValueGap {
     /// What the sim says.
     pub fn sim(&self) -> f64 {
         self.measured - self.before
+    }
+
+    /// The comparison error E = S - D of the sim (ASME V&V 20-2009, 1).
+    pub fn comparison_error(&self) -> f64 {
+        -self.before
     }
 
     /// What the corrected sim says; where data were wrapped into a turn, on the side of the measured

@@ -109,6 +109,10 @@ pub(crate) fn shrinkage(
                         u: noise.sqrt(),
                         before: before[value],
                         u_before: (noise + nominal_variances[value]).sqrt(),
+                        u_validation: {
+                            let stated = stated_variance(setup, row, output).unwrap_or(noise);
+                            (stated + nominal_variances[value]).sqrt()
+                        },
                         after: after[value],
                         u_after: (noise + predicted[value].1 + linear[value]).sqrt(),
                         left: data.residual(output, row, fitted[row][output].0),
@@ -225,6 +229,18 @@ fn claimed(setup: &Setup<'_>, fitted: &Normals, variances: &[f64]) -> f64 {
         gap += (shift * shift + variance) / variances[value];
     }
     if gap > 0.0 { (1.0 - left / gap).clamp(0.0, 1.0) } else { 0.0 }
+}
+
+/// The variance of a value that its case states: of the measured value and of the sim that came with it;
+/// `None` where no uncertainty is stated.
+fn stated_variance(setup: &Setup<'_>, row: usize, output: usize) -> Option<f64> {
+    let (data, case) = (&setup.data, setup.case);
+    let observed = case.observed.get(*data.outputs.get(output)?)?.as_ref()?;
+    let id = *data.ids.get(row)?;
+    let measured = observed.standard_uncertainties.as_ref()?.get(id)?;
+    let of_sim = observed.simulation_uncertainties.as_ref().map_or(0.0, |u| u[id]);
+    let covariance = observed.simulation_covariance.as_ref().map_or(0.0, |matrix| matrix[id][id]);
+    Some(measured * measured + of_sim * of_sim + covariance)
 }
 
 /// Variances of the model's values from all inputs, by the law of propagation.

@@ -174,7 +174,10 @@ export class Result {
       // what rounds to certainty is none
       const share = 100 * conformity.probability;
       const p = share >= 99.995 ? "> 99.99" : share < 0.005 ? "< 0.01" : String(Number(share.toFixed(2)));
-      marks.push(make("span", { class: `badge ${conformity.conforms ? "yes" : "no"}` }, conformity.conforms ? words.conforms(number(p)) : words.not_conforms(number(p))));
+      const { conforms, statement } = conformity;
+      const look = conforms ? "yes" : (statement || "").startsWith("conditional") ? "open" : "no";
+      const said = statement ? words.stated(statement, number(p)) : conforms ? words.conforms(number(p)) : words.not_conforms(number(p));
+      marks.push(make("span", { class: `badge ${look}` }, said));
     }
     badges.replaceChildren(...marks);
     const short = marks.filter(of => of.classList.contains("badge")).map(of => of.cloneNode(true));

@@ -26,6 +26,7 @@ export default {
   clause_yes: "JCGM 101 Abschnitt 8: GUM-Intervall validiert", clause_no: "JCGM 101 Abschnitt 8: GUM-Intervall nicht validiert",
   clause_open: "JCGM 101 Abschnitt 8: mit diesen Versuchen nicht entschieden",
   clause_detail: (low, high, tolerance) => `die Endpunkte weichen um ${low} und ${high} ab, Toleranz ${tolerance}`,
+  stated: (level, p) => `${{ pass: "konform", "conditional pass": "bedingt konform", "conditional fail": "bedingt nicht konform", fail: "nicht konform" }[level]}, Wahrscheinlichkeit der Konformität ${p} %`,
   conforms: p => `angenommen, Wahrscheinlichkeit der Konformität ${p} %`, not_conforms: p => `zurückgewiesen, Wahrscheinlichkeit der Konformität ${p} %`,
   written: "wie geschrieben", text_value: "Wert", components: "Komponenten", complex: "komplex",
   remove_of: n => `${n} entfernen`, of: (key, name) => `${key} von ${name}`, between: "zwischen", and: "und",

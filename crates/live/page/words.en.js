@@ -26,6 +26,7 @@ export default {
   clause_yes: "JCGM 101 clause 8: GUM interval validated", clause_no: "JCGM 101 clause 8: GUM interval not validated",
   clause_open: "JCGM 101 clause 8: not decided by these trials",
   clause_detail: (low, high, tolerance) => `endpoints differ by ${low} and ${high}, tolerance ${tolerance}`,
+  stated: (level, p) => `${level}, probability of conformity ${p} %`,
   conforms: p => `accepted, probability of conformity ${p} %`, not_conforms: p => `rejected, probability of conformity ${p} %`,
   written: "as written", text_value: "value", components: "components", complex: "complex",
   remove_of: n => `Remove ${n}`, of: (key, name) => `${key} of ${name}`, between: "between", and: "and",

@@ -3,7 +3,7 @@
 use gumption_engine::decimal::significant;
 use gumption_engine::model::Output;
 use gumption_engine::propagate::gum::Dof;
-use gumption_engine::propagate::{Evaluation, OutputEvaluation};
+use gumption_engine::propagate::{ConformityLevel, Evaluation, OutputEvaluation};
 use gumption_engine::task::{Settings, Task};
 use gumption_report::number::with_uncertainty;
 use gumption_report::{OutputParts, PageParts, ResultStatement, plain};
@@ -59,7 +59,11 @@ fn result(
         })
     });
     let conformity = found.conformity.as_ref().map(|conformity| {
-        json!({ "conforms": conformity.conforms, "probability": conformity.probability })
+        json!({
+            "conforms": conformity.conforms,
+            "statement": conformity.level.map(ConformityLevel::name),
+            "probability": conformity.probability,
+        })
     });
     json!({
         "name": plain(&output.quantity.name),

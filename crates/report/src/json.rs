@@ -14,8 +14,8 @@ use gumption_engine::propagate::DifferenceCause;
 use gumption_engine::propagate::gum::{BudgetLine, CorrelationLine, Dof, Gum};
 use gumption_engine::propagate::monte_carlo::{MonteCarlo, NumericalError};
 use gumption_engine::propagate::{
-    Accuracy, CapabilityStatement, Conformity, Evaluation, Noiseless, OutputEvaluation,
-    RowEvaluation, SecondOrder, validate,
+    Accuracy, CapabilityStatement, Conformity, ConformityLevel, Evaluation, Noiseless,
+    OutputEvaluation, RowEvaluation, SecondOrder, validate,
 };
 use gumption_engine::task::{Task, Trials};
 
@@ -384,6 +384,9 @@ struct ConformitySide {
     #[serde(skip_serializing_if = "Option::is_none")]
     stated_standard_uncertainty: Option<f64>,
     conforms: bool,
+    /// By a non-binary rule: `pass`, `conditional pass`, `conditional fail` or `fail`.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    statement: Option<&'static str>,
     specific_risk: Risks,
     #[serde(skip_serializing_if = "Option::is_none")]
     global_risk: Option<Risks>,
@@ -419,7 +422,7 @@ pub(crate) fn decision_value(found: &Conformity) -> serde_json::Value {
 impl ConformitySide {
     fn of(conformity: &Conformity) -> Self {
         let specific = conformity.specific_risk();
-        let accepted = conformity.conforms;
+        let stated = conformity.states_conformity();
         let acceptance = conformity.acceptance;
         Self {
             lower: conformity.tolerance.lower,
@@ -428,10 +431,11 @@ impl ConformitySide {
             probability_without_prior: conformity.without_prior,
             numerical_standard_error: conformity.numerical_standard_error,
             stated_standard_uncertainty: conformity.stated_uncertainty,
-            conforms: accepted,
+            conforms: conformity.conforms,
+            statement: conformity.level.map(ConformityLevel::name),
             specific_risk: Risks {
-                false_acceptance: accepted.then_some(specific),
-                false_rejection: (!accepted).then_some(specific),
+                false_acceptance: stated.then_some(specific),
+                false_rejection: (!stated).then_some(specific),
             },
             global_risk: conformity.global.map(|risks| Risks {
                 false_acceptance: Some(risks.false_acceptance),

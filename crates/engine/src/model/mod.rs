@@ -70,6 +70,8 @@ pub struct Output {
     pub risk: Option<f64>,
     /// The width of the guard band in expanded uncertainties (ILAC-G8:09/2019, 4.2.2).
     pub guard_factor: Option<f64>,
+    /// Whether the decision has four levels rather than two (ILAC-G8:09/2019, 4.2.3).
+    pub non_binary: bool,
     /// What the tolerance is that of, in words: `DIN EN 60751 class A`.
     pub specification: Option<Arc<str>>,
     /// Whether the decision rule was agreed with the customer (ISO/IEC 17025, 7.1.3).
@@ -92,6 +94,7 @@ impl Output {
             prior,
             risk,
             guard_factor: None,
+            non_binary: false,
             specification: None,
             rule_agreed: false,
             capability,

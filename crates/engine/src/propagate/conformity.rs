@@ -4,12 +4,14 @@
 
 mod error_law;
 mod global;
+mod level;
 mod turns;
 
 pub(super) use error_law::ErrorLaw;
 use error_law::StudentLaw;
 pub use global::GlobalRisks;
 use global::Inspection;
+pub use level::ConformityLevel;
 
 use super::figures::OutputEvaluation;
 use super::gum::Gum;
@@ -47,6 +49,8 @@ pub struct Conformity {
     pub guard_band: Option<f64>,
     /// Whether the item is accepted: the estimate lies within the acceptance limits.
     pub conforms: bool,
+    /// The statement of four levels, where that is the rule and there is a guard band.
+    pub level: Option<ConformityLevel>,
     /// The global risks with these acceptance limits; `None` without a prior, or without a standard
     /// uncertainty.
     pub global: Option<GlobalRisks>,
@@ -61,10 +65,15 @@ impl Conformity {
         self.wanted_risk.is_some() || self.guard_factor.is_some()
     }
 
+    /// Whether the statement is that the value conforms, conditionally or not.
+    pub fn states_conformity(&self) -> bool {
+        self.level.map_or(self.conforms, ConformityLevel::is_pass)
+    }
+
     /// The specific risk of the decision (JCGM 106, 9.3): that the accepted value does not conform,
     /// or that the rejected one does.
     pub fn specific_risk(&self) -> f64 {
-        if self.conforms { 1.0 - self.probability } else { self.probability }
+        if self.states_conformity() { 1.0 - self.probability } else { self.probability }
     }
 
     /// The decision about an output from its trials; `None` without a tolerance. It is made with the
@@ -139,6 +148,7 @@ impl Conformity {
             acceptance,
             guard_band,
             conforms: accepted.is_some_and(|accepted| accepted.holds(estimate)),
+            level: ConformityLevel::of(output, limits, guard_band, estimate),
             global,
             stated_uncertainty: None,
         })
@@ -234,6 +244,7 @@ impl Conformity {
             acceptance,
             guard_band,
             conforms: accepted.is_some_and(|accepted| accepted.holds(estimate)),
+            level: ConformityLevel::of(output, limits, guard_band, estimate),
             global,
             stated_uncertainty: None,
         })

@@ -37,7 +37,7 @@ mod warnings;
 mod whole_turns;
 
 pub use agreement::{Agreement, DifferenceCause};
-pub use conformity::{Conformity, GlobalRisks};
+pub use conformity::{Conformity, ConformityLevel, GlobalRisks};
 pub use control::Control;
 pub use evaluation::in_pool;
 pub use evaluation::joint;

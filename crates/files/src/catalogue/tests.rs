@@ -153,7 +153,29 @@ const LOOP: Bench = Bench {
            3,6.1\n3,6.2\n5,10.1\n5,9.8\n3,6.1\n3,6\n1,2\n1,2.2\n",
 };
 
-const BENCHES: [Bench; 11] = [
+/// A sensor with a digital output in a climate chamber, at two sampling rates.
+const DIGITAL: Bench = Bench {
+    name: ANY_BENCH,
+    file: r#"{"inputs": {"c": {"unit": "V", "distribution": "normal", "mean": 2, "std": 0.01}},
+      "conditions": {"f": {"unit": "Hz"}, "sampling_rate": {"unit": "Hz"}, "temp": {"unit": "degC"}},
+      "equations": {"u": "c", "psi": "0*f"},
+      "outputs": {"u": {"unit": "mV"}, "psi": {"unit": "deg"}},
+      "observations": {"file": "data.csv", "columns": {"u": {"value": "a"}, "psi": {"value": "p"}}}"#,
+    data: "f,sampling_rate,temp,a,p\n10,1600,23,2000,0.1\n200,3200,40,2000,0.2\n",
+};
+
+const DIGITAL_CHAIN: Bench = Bench {
+    name: "measuring chain",
+    file: r#"{"model": "measuring-chain",
+      "inputs": {"high_pass_1": {"unit": "Hz", "distribution": "rectangular", "lower": 0.09, "upper": 0.11}},
+      "conditions": {"frequency": {"unit": "Hz"}, "fs": {"unit": "Hz"}},
+      "outputs": {"gain": {"unit": "1"}, "phase": {"unit": "deg"}, "delay": {"unit": "s"}},
+      "observations": {"file": "data.csv", "columns": {"gain": {"value": "m"}, "phase": {"value": "p"},
+        "delay": {"value": "d"}}}"#,
+    data: "frequency,fs,m,p,d\n0.5,1600,1,0.1,0.01\n20,3200,1,0.2,0.01\n",
+};
+
+const BENCHES: [Bench; 13] = [
     PLANE,
     PLANE_TYPED,
     TABLE,
@@ -165,6 +187,8 @@ const BENCHES: [Bench; 11] = [
     SIGNAL,
     OTHER,
     LOOP,
+    DIGITAL,
+    DIGITAL_CHAIN,
 ];
 
 impl Bench {
@@ -304,7 +328,7 @@ fn assert_close(name: &str, got: &[f64], expected: &[f64]) {
 #[test]
 fn effects_of_the_inclined_plane() {
     let third = |f: f64| [f, 35.0, 210.0];
-    let cases: [(&str, &[f64], f64, [f64; 3]); 13] = [
+    let cases: [(&str, &[f64], f64, [f64; 3]); 14] = [
         (
             "spurious-x",
             &[0.03, 120.0],
@@ -353,6 +377,13 @@ fn effects_of_the_inclined_plane() {
             &[1.0, -2.0, 3.0],
             80.0,
             [5.1598268795968913, 2.6718097449577484, 8.2048303304156918],
+        ),
+        (
+            // the product of the matrix with the signed accelerations
+            "cross-axis-matrix",
+            &[1.0, -2.0, 3.0, 1.5, -2.5, 0.5],
+            80.0,
+            [5.1598268795968913, 2.8940289045795279, 8.3013639732041803],
         ),
         (
             "background-vibration",
@@ -410,10 +441,12 @@ fn typed(bench: &Bench, effect: &str, parameters: &[f64], conditions: &[f64]) ->
 
 #[test]
 fn effects_of_the_oscillating_table() {
-    let cases: [(&str, &[f64], [f64; 2]); 12] = [
+    let cases: [(&str, &[f64], [f64; 2]); 13] = [
         ("radius-offset", &[-3.0], [47.868178967417536, 2.7152363222248403]),
         ("encoder-scale", &[1.0], [49.215367237758029, 2.8195696843788331]),
         ("sampling-rate", &[12.0], [47.992734895220274, 2.5994292140806573]),
+        // the mean of a cosine over normal phases, by quadrature
+        ("timestamp-jitter", &[2.0], [48.482472877231821, 2.7087050181294494]),
         ("table-tilt", &[0.1], [48.739431014155814, 2.7640130226240889]),
         ("mounting-misalignment", &[5.0], [48.542661293953212, 2.7534951185946573]),
         ("processing-filter", &[40.0], [48.72808627422273, 2.7639898366940813]),
@@ -528,7 +561,52 @@ fn effects_of_the_gravity_rotation() {
     }
 }
 
-/// 0.25 m/s^2 at 0.5 Hz, 0.3 s after a zero: 15 % less with a lead of 15 deg; and 1/12 s ahead.
+/// At 120 Hz, 1600 Hz and 33 degC: 2000 mV and 0 deg without an effect. A coefficient times 10 K; the
+/// mean of a cosine over normal phases by quadrature; 3.5 samples of 1/1600 s; 3090 Hz, which folds to
+/// 110 Hz; and the response of a mass on a complex spring.
+#[test]
+fn effects_of_a_sensor_with_a_clock() {
+    let at =
+        |name: &str, parameters: &[f64]| with(&DIGITAL, name, parameters, &[120.0, 1600.0, 33.0]);
+    let cases: [(&str, &[f64], [f64; 2]); 6] = [
+        ("offset-temperature", &[0.7], [2007.0, 0.0]),
+        ("sensitivity-temperature", &[-0.05], [1990.0, 0.0]),
+        ("digital-filter-delay", &[3.5], [2000.0, -94.5]),
+        ("timestamp-jitter", &[0.0005], [1862.8098668046111, 0.0]),
+        ("aliasing", &[3090.0, 20.0, 300.0], [2017.4469188745528, 0.0]),
+        ("mounting-resonance", &[500.0, 10.0], [2122.1641373887703, -0.083995381491573336]),
+    ];
+    for (name, parameters, expected) in cases {
+        assert_close(name, &at(name, parameters), &expected);
+    }
+    // Fresnel integrals of a record with a rate that drifts, to the error of the rule of 8 points: 1e-12
+    // here and, by quadrature, 4e-5 where one period of slip meets the largest drift of the prior
+    let fresnel = [([0.002, 0.004], 0.902_555_530_834_752, 2e-12)];
+    let corner = [([1.0 / 120.0, 4.0 / 120.0], 0.489_030_93, 4e-5)];
+    for (parameters, expected, tolerance) in fresnel.into_iter().chain(corner) {
+        let got = at("sensor-clock", &parameters)[0] / 2000.0;
+        assert!((got - expected).abs() < tolerance, "{got} in place of {expected}");
+    }
+    // without a drift it is that of a sampling rate
+    let steady = at("sensor-clock", &[0.003, 0.0]);
+    // the rule has 1e-10 at 0.36 periods
+    assert!((steady[0] / at("sampling-rate", &[0.003])[0] - 1.0).abs() < 1e-10, "{steady:?}");
+    let chain = |name: &str, parameters: &[f64]| {
+        let file = DIGITAL_CHAIN.read(&[name]).unwrap();
+        let program = file.case.model.program(&[&file.case.candidates[0].effect]).unwrap();
+        program.evaluate(&[&[0.0, 20.0, 1600.0], parameters].concat())
+    };
+    assert_close(
+        "digital-filter-delay",
+        &chain("digital-filter-delay", &[3.5]),
+        &[1.0, -15.75, 0.0021875],
+    );
+    let expected = [1.0412282603989039, -0.23626991647385729, 3.2815266176924623e-5];
+    assert_close("mounting-resonance", &chain("mounting-resonance", &[100.0, 2.0]), &expected);
+}
+
+/// 0.25 m/s^2 at 0.5 Hz, 0.3 s after a zero: 15 % less with a lead of 15 deg; and 1/12 s ahead; and at
+/// the true time 0.3 s 1.02 + 5 %/s (0.3 s)^2/2.
 #[test]
 fn effects_of_a_signal() {
     let at = [0.3, -0.046774464189431952, 0.20225424859373686];
@@ -536,6 +614,8 @@ fn effects_of_a_signal() {
     assert_close("amplitude-and-phase", &got, &[0.19838584063065537]);
     let got = with(&SIGNAL, "time-delay", &[-1.0 / 12.0], &at);
     assert_close("time-delay", &got, &[0.23339510662430044]);
+    let got = with(&SIGNAL, "sensor-clock", &[2.0, 5.0], &at);
+    assert_close("sensor-clock", &got, &[0.20599446889381948]);
 }
 
 /// Priors of effects for any bench follow the data: 0.1 kHz to 10 kHz, at most 2000 mV and 4.5 V.

@@ -200,6 +200,8 @@ pub(crate) const TOLERANCE: &[Key] = keys![
         "The width of the guard band in multiples of the expanded uncertainty U (ILAC-G8: 1).",
     )
     .with("exclusiveMinimum", 0),
+    "statement" => described("string", "`binary`, or with a guard band `non-binary`: pass, conditional pass, conditional fail, fail (ILAC-G8, 4.2.3).")
+        .with("enum", texts(["binary", "non-binary"])),
     "specification" => described("string", "The specification that states the tolerance, for certificates."),
     "agreed" => described("boolean", "Whether the decision rule was agreed with the customer."),
 ];

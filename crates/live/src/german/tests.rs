@@ -240,6 +240,18 @@ fn rare_sentences_are_german_too() {
         model(
             two(),
             "a + b",
+            json!({"unit": "1", "tolerance": {"upper": 2.9, "guard_band": 1, "statement": "non-binary"}}),
+            json!({}),
+        ),
+        model(
+            two(),
+            "a + b + c",
+            json!({"unit": "1", "tolerance": {"upper": 2.9, "guard_band": 1, "statement": "non-binary"}}),
+            json!({"conditions": {"c": {"values": [0, 1]}}}),
+        ),
+        model(
+            two(),
+            "a + b",
             json!({"unit": "1", "tolerance": {"lower": 2.5, "upper": 3.2, "risk": 0.05}}),
             json!({}),
         ),

@@ -13,7 +13,7 @@ use crate::table::comparison::percent_of;
 use crate::table::in_unit;
 use gumption_engine::decimal::{to_15_digits, to_digits};
 use gumption_engine::model::Tolerance;
-use gumption_engine::propagate::Conformity;
+use gumption_engine::propagate::{Conformity, ConformityLevel};
 
 /// Significant digits of a guard band.
 const GUARD_DIGITS: u32 = 3;
@@ -71,6 +71,9 @@ fn agreed(row: &StatedRow<'_>, of: SentenceLanguage) -> Option<String> {
 
 /// A decision in a few words, for a table.
 pub(super) fn decided(found: &Conformity, words: &Words) -> &'static str {
+    if let Some(level) = found.level {
+        return words.levels[place_of(level)];
+    }
     let [conforms, not, not_shown] = words.decided;
     match (found.conforms, found.tolerance.holds(found.estimate)) {
         (true, _) => conforms,
@@ -79,16 +82,21 @@ pub(super) fn decided(found: &Conformity, words: &Words) -> &'static str {
     }
 }
 
-/// Whether each row with a tolerance conforms.
-pub(super) fn decisions(report: &CertificateReport<'_>) -> Vec<bool> {
-    let rows = stated::rows(report);
-    rows.iter().filter_map(|row| Some(row.conformity()?.conforms)).collect()
+/// What is decided of each row with a tolerance.
+pub(super) fn decisions(report: &CertificateReport<'_>) -> Vec<Conformity> {
+    stated::rows(report).iter().filter_map(StatedRow::conformity).collect()
+}
+
+/// The place of a level among the words for levels.
+fn place_of(level: ConformityLevel) -> usize {
+    ConformityLevel::ALL.iter().position(|of| *of == level).unwrap_or(0)
 }
 
 fn said(row: &StatedRow<'_>, found: &Conformity, of: SentenceLanguage) -> String {
     let words = of.words();
     // a risk that is the probability of conformity of a value that is rejected (JCGM 106, 9.3)
-    let chance = if found.conforms { words.conforming } else { words.all_the_same };
+    let is_stated = found.conforms || found.level.is_some();
+    let chance = if is_stated { words.conforming } else { words.all_the_same };
     // a stated uncertainty that replaces the evaluated one has no trials
     let trials = row.found.monte_carlo.as_deref().filter(|_| !row.is_raised());
     let trials = trials.map(|figures| figures.trials);
@@ -171,6 +179,9 @@ fn telling(value: f64, limits: &[&Tolerance]) -> f64 {
 /// The decision. A value that a guarded rule rejects although it lies within the tolerance is not
 /// shown to conform; its nonconformity is not shown either (JCGM 106:2012, 8.3).
 fn decision(found: &Conformity, words: &Words) -> &'static str {
+    if let Some(level) = found.level {
+        return words.level_decisions[place_of(level)];
+    }
     let [conforms, not] = words.decisions;
     let [outside, never] = words.not_shown;
     match (found.conforms, found.tolerance.holds(found.estimate)) {
@@ -192,6 +203,10 @@ fn rule(row: &StatedRow<'_>, found: &Conformity, of: SentenceLanguage) -> String
         };
         let coverage = row.asked.task.settings.coverage;
         let clause = words.of_ilac_g8[usize::from(!coverage.is_about_95())];
+        let clause = match found.level {
+            Some(_) => clause.replace("4.2.2", "4.2.3"),
+            None => clause.to_owned(),
+        };
         let clause = clause.replace("{k}", &of.in_marks(&row.factor().text));
         let said = said.replace("{factor}", &of.in_marks(&exact(factor)));
         let said = said.replace("{clause}", &clause);

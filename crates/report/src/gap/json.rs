@@ -348,6 +348,8 @@ fn rows(diagnosis: &Diagnosis) -> Value {
                 "standard_uncertainty": value.u,
                 "before": value.before,
                 "u_before": value.u_before,
+                "comparison_error": value.comparison_error(),
+                "validation_uncertainty": value.u_validation,
                 "after": value.after,
                 "u_after": value.u_after,
                 "sim": value.sim(),

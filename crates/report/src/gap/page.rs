@@ -43,6 +43,7 @@ pub(super) fn document(
     effect(&mut page, diagnosis);
     page.section("Is there a gap?");
     page.text(words::gap(diagnosis));
+    words::validation(diagnosis).into_iter().for_each(|said| page.text(said));
     page.section("Where?");
     match sheets::regions(diagnosis) {
         Some(sheet) => {

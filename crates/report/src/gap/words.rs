@@ -9,7 +9,7 @@ use crate::words::{Language, sentence};
 use gumption_gap::{
     Diagnosis, DiagnosisNote, GapPart, GapRegion, Hypothesis, HypothesisKind, LeftBeside,
     NamedQuantity, NoiseEstimate, PriorConflict, ProposalKind, ProposedMeasurement, SettingError,
-    Shrunk, UncertaintyFactor,
+    Shrunk, UncertaintyFactor, ValueGap,
 };
 use gumption_units::listed;
 
@@ -502,6 +502,27 @@ pub(super) fn gap(diagnosis: &Diagnosis) -> String {
             p_equals(p)
         )
     }
+}
+
+/// The comparison errors of the sim beside their validation standard uncertainties, in the words of ASME
+/// V&V 20-2009; `None` where none is known.
+pub(super) fn validation(diagnosis: &Diagnosis) -> Option<String> {
+    let values: Vec<&ValueGap> = diagnosis
+        .rows
+        .iter()
+        .flat_map(|row| &row.outputs)
+        .filter(|of| of.u_validation > 0.0)
+        .collect();
+    let within = values.iter().filter(|of| of.comparison_error().abs() <= 2.0 * of.u_validation);
+    (!values.is_empty()).then(|| {
+        format!(
+            "Comparison error E = S - D (sim less measured value) and validation standard uncertainty \
+             u_val (u_val^2 = u_num^2 + u_input^2 + u_D^2; ASME V&V 20-2009): |E| is at most 2 u_val for \
+             {} of {} values.",
+            within.count(),
+            values.len()
+        )
+    })
 }
 
 /// What is said where no region is listed.

@@ -14,7 +14,8 @@ use gumption_engine::propagate::gum::{Dof, Gum};
 use gumption_engine::propagate::monte_carlo::{Adaptive, FIRST_STAGE, MonteCarlo};
 use gumption_engine::propagate::validate::Validation;
 use gumption_engine::propagate::{
-    Accuracy, Basis, Conformity, DifferenceCause, Noiseless, OutputEvaluation, Stated,
+    Accuracy, Basis, Conformity, ConformityLevel, DifferenceCause, Noiseless, OutputEvaluation,
+    Stated,
 };
 use gumption_engine::task::{Coverage, Settings, StoppingRule, Warning};
 
@@ -208,7 +209,8 @@ pub(super) fn limits_text(output: &Quantity, limits: &Tolerance, position: Optio
 
 /// What is decided.
 pub(crate) fn decision(found: &Conformity) -> &'static str {
-    if found.conforms { "accepted" } else { "rejected" }
+    let binary = if found.conforms { "accepted" } else { "rejected" };
+    found.level.map_or(binary, ConformityLevel::name)
 }
 
 /// The rule by which it is decided.
@@ -280,7 +282,8 @@ fn rule_text(output: &Quantity, found: &Conformity, coverage: Coverage) -> Strin
 
 /// Specific and global risks.
 fn risks_text(found: &Conformity, trials: Option<u64>) -> String {
-    let wrong = if found.conforms { "does not conform" } else { "conforms all the same" };
+    let wrong =
+        if found.states_conformity() { "does not conform" } else { "conforms all the same" };
     let specific = percent_of(found, found.specific_risk(), trials).text();
     let mut text = format!("Specific risk that the value {wrong}: {specific} %.");
     if let Some(risks) = found.global {

@@ -11,7 +11,9 @@ use gumption_engine::model::{Output, Quantity};
 use gumption_engine::number::largest_first;
 use gumption_engine::propagate::gum::Gum;
 use gumption_engine::propagate::monte_carlo::{MonteCarlo, StatedInterval};
-use gumption_engine::propagate::{Conformity, OutputEvaluation, RowEvaluation, naming};
+use gumption_engine::propagate::{
+    Conformity, ConformityLevel, OutputEvaluation, RowEvaluation, naming,
+};
 use gumption_engine::task::{Settings, Task};
 
 /// What else there is of a sweep.
@@ -69,18 +71,20 @@ pub(crate) fn conformity(task: &Task, rows: &[RowEvaluation], output: usize) -> 
         rows.iter().filter_map(|row| row.outputs.get(output)),
         task.settings.digits_on_pages(),
     );
+    let decided = if first.level.is_some() {
+        let count = |level| found.iter().filter(|(_, of)| of.level == Some(level)).count();
+        let counts = ConformityLevel::ALL.map(|level| format!("{} {}", level.name(), count(level)));
+        format!("{} of {} rows", counts.join(", "), found.len())
+    } else if rejected.is_empty() {
+        format!("{0} of {0} rows accepted", found.len())
+    } else {
+        let (accepted, rows) = (found.len() - rejected.len(), row_numbers(&rejected));
+        format!("{accepted} of {} rows accepted, rejected: {plural} {rows}", found.len())
+    };
     Some(format!(
-        "Tolerance {}, {}: {} of {} rows accepted{}. Probabilities, guard bands and risks of every row: \
-         --format json.{}",
-        limits,
+        "Tolerance {limits}, {}: {decided}. Probabilities, guard bands and risks of every row: --format \
+         json.{}",
         rule(first, task.settings.coverage),
-        found.len() - rejected.len(),
-        found.len(),
-        if rejected.is_empty() {
-            String::new()
-        } else {
-            format!(", rejected: {plural} {}", row_numbers(&rejected))
-        },
         decided_apart.map_or_else(String::new, |said| format!(" {said}"))
     ))
 }

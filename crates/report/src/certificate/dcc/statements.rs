@@ -5,6 +5,7 @@ use crate::certificate::sentences::{SentenceLanguage, SentencePlace};
 use crate::certificate::words::{self, Words};
 use crate::certificate::{CertificateReport, conformity, sentences};
 use gumption_analysis::certificate::contents::{Language, Localized};
+use gumption_engine::propagate::{Conformity, ConformityLevel};
 
 pub(super) fn write(xml: &mut Xml, report: &CertificateReport<'_>, languages: &[Language]) {
     let of = &report.certificate.administrative;
@@ -24,13 +25,13 @@ pub(super) fn write(xml: &mut Xml, report: &CertificateReport<'_>, languages: &[
     }
     let decided: Vec<Vec<String>> =
         languages.iter().map(|language| conformity::statements(report, own(language))).collect();
-    for (place, conforms) in conformity::decisions(report).into_iter().enumerate() {
+    for (place, found) in conformity::decisions(report).into_iter().enumerate() {
         let texts = languages
             .iter()
             .zip(&decided)
             .filter_map(|(language, said)| Some((Some(*language), said.get(place)?.clone())));
         let said = Localized { texts: texts.collect() };
-        let of = (Some("basic_conformity"), &["JCGM 106:2012"][..], Some(conforms));
+        let of = (Some("basic_conformity"), &["JCGM 106:2012"][..], Some(status(&found)));
         statement(xml, &said, of, languages);
     }
     if let Some(number) = &report.certificate.letterhead.accreditation_number {
@@ -49,14 +50,24 @@ pub(super) fn write(xml: &mut Xml, report: &CertificateReport<'_>, languages: &[
     }
 }
 
-/// The reference type of a statement in the good practice, the norms that it follows, and whether
-/// something conforms.
-type StatementKind<'a> = (Option<&'a str>, &'a [&'a str], Option<bool>);
+/// The status of a statement of conformity, as the schema names it.
+fn status(found: &Conformity) -> &'static str {
+    match found.level {
+        Some(ConformityLevel::ConditionalPass) => "conditionalPass",
+        Some(ConformityLevel::ConditionalFail) => "conditionalFail",
+        _ if found.conforms => "pass",
+        _ => "fail",
+    }
+}
+
+/// The reference type of a statement in the good practice, the norms that it follows, and the status
+/// of a conformity.
+type StatementKind<'a> = (Option<&'a str>, &'a [&'a str], Option<&'static str>);
 
 fn statement(
     xml: &mut Xml,
     text: &Localized,
-    (name, norms, conforms): StatementKind<'_>,
+    (name, norms, status): StatementKind<'_>,
     languages: &[Language],
 ) {
     let attributes: Vec<(&str, &str)> = name.iter().map(|name| ("refType", *name)).collect();
@@ -65,8 +76,6 @@ fn statement(
             xml.leaf("dcc:norm", norm);
         }
         xml.text("dcc:declaration", text, languages);
-        if let Some(conforms) = conforms {
-            xml.leaf("dcc:conformity", if conforms { "pass" } else { "fail" });
-        }
+        status.into_iter().for_each(|status| xml.leaf("dcc:conformity", status));
     });
 }

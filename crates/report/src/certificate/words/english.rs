@@ -132,6 +132,13 @@ pub(super) const WORDS: Words = Words {
         "It is not shown that the result conforms to the tolerance {limits}: it is within the tolerance, \
             but the decision rule accepts no value. The result is rejected.",
     ],
+    levels: ["pass", "conditional pass", "conditional fail", "fail"],
+    level_decisions: [
+        "Pass: the result conforms to the tolerance {limits} and is within the acceptance limits.",
+        "Conditional pass: the result is within the tolerance {limits}, but in the guard band.",
+        "Conditional fail: the result is outside the tolerance {limits}, by at most the guard band.",
+        "Fail: the result is outside the tolerance {limits} by more than the guard band.",
+    ],
     limits: ["from {low} to {high}{unit}", "from {low}{unit} on", "up to {high}{unit}"],
     conforming: "The value conforms with a probability of {p}.",
     all_the_same: "Specific risk that the rejected value conforms: {p}.",

@@ -137,6 +137,13 @@ pub(super) const WORDS: Words = Words {
         "La conformité du résultat à la tolérance {limits} n'est pas démontrée : il se trouve dans la \
             tolérance, mais la règle de décision n'accepte aucune valeur. Le résultat est refusé.",
     ],
+    levels: ["conforme", "conforme sous condition", "non conforme sous condition", "non conforme"],
+    level_decisions: [
+        "Conforme : le résultat est dans la tolérance {limits} et dans les limites d'acceptation.",
+        "Conforme sous condition : le résultat est dans la tolérance {limits}, mais dans la bande de garde.",
+        "Non conforme sous condition : le résultat est hors de la tolérance {limits}, d'au plus la bande de garde.",
+        "Non conforme : le résultat est hors de la tolérance {limits}, de plus que la bande de garde.",
+    ],
     limits: ["de {low} à {high}{unit}", "à partir de {low}{unit}", "jusqu'à {high}{unit}"],
     conforming: "La valeur est conforme avec une probabilité de {p}.",
     all_the_same: "Risque spécifique que la valeur refusée soit conforme : {p}.",

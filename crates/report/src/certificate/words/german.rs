@@ -142,6 +142,13 @@ pub(super) const WORDS: Words = Words {
             der Toleranz, aber die Entscheidungsregel nimmt keinen Wert an. Das Ergebnis wird \
             zurückgewiesen.",
     ],
+    levels: ["konform", "bedingt konform", "bedingt nicht konform", "nicht konform"],
+    level_decisions: [
+        "Konform: Das Ergebnis hält die Toleranz {limits} ein und liegt innerhalb der Annahmegrenzen.",
+        "Bedingt konform: Das Ergebnis liegt innerhalb der Toleranz {limits}, aber im Sicherheitsband.",
+        "Bedingt nicht konform: Das Ergebnis liegt außerhalb der Toleranz {limits}, um höchstens das Sicherheitsband.",
+        "Nicht konform: Das Ergebnis liegt um mehr als das Sicherheitsband außerhalb der Toleranz {limits}.",
+    ],
     limits: ["von {low} bis {high}{unit}", "ab {low}{unit}", "bis {high}{unit}"],
     conforming: "Der Wert ist mit einer Wahrscheinlichkeit von {p} konform.",
     all_the_same: "Spezifisches Risiko, dass der zurückgewiesene Wert konform ist: {p}.",

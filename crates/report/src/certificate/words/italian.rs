@@ -133,6 +133,13 @@ pub(super) const WORDS: Words = Words {
         "La conformità del risultato alla tolleranza {limits} non è dimostrata: esso è entro la \
             tolleranza, ma la regola decisionale non accetta alcun valore. Il risultato è respinto.",
     ],
+    levels: ["conforme", "conforme con riserva", "non conforme con riserva", "non conforme"],
+    level_decisions: [
+        "Conforme: il risultato è entro la tolleranza {limits} ed entro i limiti di accettazione.",
+        "Conforme con riserva: il risultato è entro la tolleranza {limits}, ma nella banda di guardia.",
+        "Non conforme con riserva: il risultato è fuori dalla tolleranza {limits}, al massimo della banda di guardia.",
+        "Non conforme: il risultato è fuori dalla tolleranza {limits} di più della banda di guardia.",
+    ],
     limits: ["da {low} a {high}{unit}", "da {low}{unit} in su", "fino a {high}{unit}"],
     conforming: "Il valore è conforme con una probabilità di {p}.",
     all_the_same: "Rischio specifico che il valore respinto sia conforme: {p}.",

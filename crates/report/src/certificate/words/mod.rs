@@ -124,6 +124,10 @@ pub(super) struct Words {
     /// That a value within the tolerance is rejected: it lies outside the acceptance limits, or
     /// there are none; `{limits}`.
     pub(super) not_shown: [&'static str; 2],
+    /// In a table: the levels of a non-binary statement, best first (ILAC-G8:09/2019, 4.2.3).
+    pub(super) levels: [&'static str; 4],
+    /// The same as sentences: `{limits}`.
+    pub(super) level_decisions: [&'static str; 4],
     /// Limits with their unit: both, the lower one, the upper one; `{low}`, `{high}`, `{unit}`.
     pub(super) limits: [&'static str; 3],
     /// The probability that an accepted value conforms: `{p}`, one of `percent`.
@@ -244,7 +248,7 @@ mod tests {
             marks.sort_unstable();
             marks
         }
-        let templates: [fn(&Words) -> &'static str; 33] = [
+        let templates: [fn(&Words) -> &'static str; 37] = [
             |w| w.period,
             |w| w.rows[0],
             |w| w.rows[1],
@@ -272,6 +276,10 @@ mod tests {
             |w| w.all_the_same,
             |w| w.not_shown[0],
             |w| w.not_shown[1],
+            |w| w.level_decisions[0],
+            |w| w.level_decisions[1],
+            |w| w.level_decisions[2],
+            |w| w.level_decisions[3],
             |w| w.percent[0],
             |w| w.percent[1],
             |w| w.percent[2],

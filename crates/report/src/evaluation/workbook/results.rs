@@ -354,7 +354,7 @@ fn decided(
                 }
                 None => leaf.number(place(2), width, shown, Look::Plain)?,
             }
-            let mut within = Vec::new();
+            let (mut within, mut tolerated, mut near) = (Vec::new(), Vec::new(), Vec::new());
             for (figure, limit, sign) in [(0, limits[0], 1.0), (1, limits[1], -1.0)] {
                 let at = place(3 + figure);
                 let Some(limit) = limit else {
@@ -365,8 +365,19 @@ fn decided(
                 let formula = format!("{}{operator}{}", cell(figure), cell(2));
                 leaf.formula(at, &formula, &now(limit + sign * width), shown, Look::Plain)?;
                 within.push(format!("{}{compared}{}", cell(5), cell(3 + figure)));
+                let beyond = if sign > 0.0 { "-" } else { "+" };
+                tolerated.push(format!("{}{compared}{}", cell(5), cell(figure)));
+                near.push(format!("{}{compared}{}{beyond}{}", cell(5), cell(figure), cell(2)));
             }
-            let formula = format!("IF(AND({}),\"accepted\",\"rejected\")", within.join(","));
+            let [within, tolerated, near] =
+                [within, tolerated, near].map(|all| format!("AND({})", all.join(",")));
+            let formula = match conformity.level {
+                None => format!("IF({within},\"accepted\",\"rejected\")"),
+                Some(_) => format!(
+                    "IF({within},\"pass\",IF({tolerated},\"conditional pass\",\
+                     IF({near},\"conditional fail\",\"fail\")))"
+                ),
+            };
             let now = Cached::Text(decision.to_owned());
             leaf.formula(place(6), &formula, &now, None, Look::Stressed)?;
         }

@@ -71,6 +71,7 @@ fn rows(count: usize) -> Vec<RowGap> {
             u: 0.05,
             before: gap + noise,
             u_before: 0.06,
+            u_validation: 0.06,
             after: noise,
             u_after: 0.055,
             left: noise,
@@ -346,8 +347,15 @@ fn bare() -> Diagnosis {
     bare.rows = rows(1);
     bare.rows[0].conditions.clear();
     for value in &mut bare.rows[0].outputs {
-        *value =
-            ValueGap { u: 0.0, before: 0.0, u_before: 0.0, after: 0.0, u_after: 0.0, ..*value };
+        *value = ValueGap {
+            u: 0.0,
+            before: 0.0,
+            u_before: 0.0,
+            u_validation: 0.0,
+            after: 0.0,
+            u_after: 0.0,
+            ..*value
+        };
     }
     let nothing =
         Shrunk { rms_before: 0.0, rms_after: 0.0, noise_floor: 0.0, removed_fraction: 0.0 };
