@@ -45,6 +45,10 @@ pub(crate) mod truth {
     pub(crate) const ANGLES: [f64; 2] = [35.03, 29.96];
     /// Sensitivities of the sensor on the plane along x, y, z, in D/(m/s^2).
     pub(crate) const AXES: [f64; 3] = [419.2, 416.3, 421.8];
+    /// The greatest acceleration of the shock in m/s^2, and its width in seconds.
+    pub(crate) const SHOCK: [f64; 2] = [5000.0, 2e-4];
+    /// The shock accelerometer: sensitivity in pC/(m/s^2), resonance in hertz, damping, delay in seconds.
+    pub(crate) const PIEZO: [f64; 4] = [0.1275, 36e3, 0.025, 0.8e-6];
 }
 
 /// A recording of whole numbers of 16 bits, `frame` being the values at an instant in seconds. The
@@ -158,6 +162,40 @@ fn plane(seed: u64) -> Result<Vec<u8>, Box<dyn Error>> {
     })
 }
 
+/// A shock, a squared half sine: the reference (0.2 m/s^2 a count) and the charge of an accelerometer (0.025 pC a count),
+/// which rings at its resonance. Between steps of 1/32 sample the acceleration is taken as straight, for which a mass
+/// on a damped spring has an exact solution.
+fn shock(seed: u64) -> Result<Vec<u8>, Box<dyn Error>> {
+    const STEPS: u32 = 32;
+    let mut noise = SplitMix64(seed);
+    let [peak, width] = truth::SHOCK;
+    let [sensitivity, resonance, damping, delay] = truth::PIEZO;
+    let acceleration = |t: f64| {
+        let place = (t - 1e-3) / width;
+        if (0.0..1.0).contains(&place) { peak * (TAU / 2.0 * place).sin().powi(2) } else { 0.0 }
+    };
+    let (rate, pulsation) = (5e5, TAU * resonance);
+    let step = 1.0 / (rate * f64::from(STEPS));
+    let (free, lost) = (pulsation * (1.0 - damping * damping).sqrt(), damping * pulsation);
+    let (fall, (sin, cos)) = ((-lost * step).exp(), (free * step).sin_cos());
+    let (mut deflection, mut speed, mut before) = (0.0, 0.0, 0.0);
+    wav(500_000, rate, 4e-3, |t| {
+        for part in 1..=STEPS {
+            let now = acceleration(t + (f64::from(part) - f64::from(STEPS)) * step - delay);
+            let slope = (now - before) / step;
+            let lead = 2.0 * damping * slope / pulsation;
+            let (z, own) = (deflection - before + lead, speed - slope);
+            let swing = (own + lost * z) / free;
+            let next = fall * (z * cos + swing * sin);
+            speed = slope - lost * next + fall * free * (swing * cos - z * sin);
+            deflection = now - lead + next;
+            before = now;
+        }
+        let reference = acceleration(t) / 0.2 + noise.normal(10.0);
+        [reference, sensitivity * deflection / 0.025 + noise.normal(10.0)]
+    })
+}
+
 /// Files with their content.
 type Files = Vec<(String, Vec<u8>)>;
 
@@ -175,6 +213,7 @@ pub(crate) fn recordings() -> Result<Files, Box<dyn Error>> {
         made.push((format!("iepe_chain/slide_{hertz}hz.wav"), slide(seed, hertz)?));
     }
     made.push(("spurious_components/plane_80hz.wav".to_owned(), plane(41)?));
+    made.push(("shock/shock.wav".to_owned(), shock(51)?));
     Ok(made)
 }
 

@@ -253,6 +253,11 @@ const STEP: &[Key] = keys![
         WAVEFORM_NOISE,
         &[],
     ),
+    "baseline" => closed(
+        "Part of a waveform's record without a signal, whose mean is taken off.",
+        BASELINE,
+        &["from", "to"],
+    ),
     "additional" => referenced(
         "quantity",
         "Standard uncertainty of each value of a waveform by what the record has beside the signal, in the unit of the \
@@ -298,6 +303,12 @@ pub(crate) const WAVEFORM_NOISE: &[Key] = keys![
     "to" => referenced("quantity", "Instant at which it ends."),
     "colour" => described("string", "`measured`: its spectrum counts (unless told); `white`: its variance alone.")
         .with("enum", texts(["measured", "white"])),
+];
+
+/// Keys of a part of a record.
+pub(crate) const BASELINE: &[Key] = keys![
+    "from" => referenced("quantity", "Instant at which it begins, in s unless told."),
+    "to" => referenced("quantity", "Instant at which it ends."),
 ];
 
 /// Keys of a figure of a waveform; each has some of them.

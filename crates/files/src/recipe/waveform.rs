@@ -77,6 +77,7 @@ pub(super) fn read(
         low_pass,
         truncation,
         noise,
+        baseline: noise::baseline(of)?,
         delay,
         of_scale: 0.0,
         of_rate: 0.0,

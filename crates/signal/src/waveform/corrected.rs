@@ -3,7 +3,7 @@
 use super::errors::LineErrors;
 use super::low_pass::{Cutoff, LowPass};
 use super::quantity::{QuantityFound, WaveformQuantity, ascending};
-use super::quiet::QuietPart;
+use super::quiet::{self, QuietPart};
 use super::response::{self, LineResponse};
 use super::spectrum::Lines;
 use super::trials::{self, WaveformTrials};
@@ -31,6 +31,8 @@ pub struct WaveformStep {
     pub truncation: Truncation,
     /// The noise of the record.
     pub noise: QuietPart,
+    /// The instants, in seconds, between which nothing happens: the mean of the record there is taken off.
+    pub baseline: Option<[f64; 2]>,
     /// The delay of the channel beside that of the response, in seconds; it is taken off.
     pub delay: Measured,
     /// The relative standard uncertainty of the scale.
@@ -139,8 +141,16 @@ pub fn corrected(
     let lines = Lines::of(signal);
     let at = step.response.at(&lines)?;
     let inverse: Vec<Phasor> = at.inverse.iter().map(|value| value * step.factor).collect();
-    let densities = step.noise.densities(signal, &lines)?;
-    let record = lines.forward(&signal.values);
+    let mut densities = step.noise.densities(signal, &lines)?;
+    let mut values = signal.values.clone();
+    if let Some([from, to]) = step.baseline {
+        let quiet = quiet::part(signal, from, to)?;
+        let mean = quiet.iter().sum::<f64>() / quiet.len() as f64;
+        values.iter_mut().for_each(|value| *value -= mean);
+        // the error of that mean is one of the whole record: of its line at zero
+        densities[0] *= 1.0 + lines.samples as f64 / quiet.len() as f64;
+    }
+    let record = lines.forward(&values);
     let unregularized: Vec<Phasor> = record.iter().zip(&inverse).map(|(y, h)| y * h).collect();
     let noise =
         |line: usize| (densities[line] * inverse[line].norm_sqr() * lines.samples as f64).sqrt();

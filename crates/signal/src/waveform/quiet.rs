@@ -82,7 +82,7 @@ impl QuietPart {
 }
 
 /// The values between two instants.
-fn part(signal: &Signal, from: f64, to: f64) -> Result<&[f64], String> {
+pub(super) fn part(signal: &Signal, from: f64, to: f64) -> Result<&[f64], String> {
     let index = |instant: f64| ((instant - signal.start) * signal.rate).round();
     let [first, last] = [index(from), index(to)];
     let end = signal.values.len() as f64;

@@ -72,6 +72,7 @@ fn step(response: LineResponse) -> WaveformStep {
         low_pass: None,
         truncation: Truncation::Nothing,
         noise: QuietPart::Stated(0.0),
+        baseline: None,
         delay: Measured {
             value: 0.0,
             standard_uncertainty: 0.0,
@@ -252,4 +253,34 @@ fn truncation_is_bounded() {
             );
         }
     }
+}
+
+/// A baseline of 100 white values: the integral over the whole record of 1000 has the variance of the sum of its noise
+/// and of 1000 times the error of the mean of the first 100, which are part of the record: by hand, with unit variance
+/// the sum over the 900 others less 9 times that over the 100: 900 + 81*100. The stated one takes both as independent:
+/// 1000 + 1000^2/100, larger by 22 %.
+#[test]
+fn a_baseline_is_taken_off_with_its_error() {
+    let rate = 1000.0;
+    let noise = normals(9, "baseline", 1000);
+    let values = noise.iter().map(|z| 5.0 + 0.1 * z).collect();
+    let signal = Signal { values, rate, start: 0.0 };
+    let of = WaveformStep {
+        noise: QuietPart::Stated(0.1),
+        baseline: Some([0.0, 0.099]),
+        quantities: vec![("sum".to_owned(), WaveformQuantity::Integral { between: None })],
+        ..step(LineResponse::Flat)
+    };
+    let found = corrected(&of, &signal, ("a", 1, 1000)).unwrap();
+    let mean = signal.values[..100].iter().sum::<f64>() / 100.0;
+    assert!((found.signal.values[500] - (signal.values[500] - mean)).abs() < 1e-12);
+    let u = found.quantities[0].standard_uncertainty();
+    // the trapezoids leave half of both ends out: 998.5 of 1000
+    let expected = 0.1 * (998.5 + 999.0_f64 * 999.0 / 100.0).sqrt() / rate;
+    assert!((u / expected - 1.0).abs() < 1e-3, "{u} {expected}");
+    // 1000 trials: 2.2 %, four of these
+    let drawn = &found.quantities[0].trials;
+    let centre = drawn.iter().sum::<f64>() / 1000.0;
+    let spread = (drawn.iter().map(|v| (v - centre) * (v - centre)).sum::<f64>() / 999.0).sqrt();
+    assert!((spread / u - 1.0).abs() < 0.09, "{spread} {u}");
 }

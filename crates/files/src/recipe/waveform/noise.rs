@@ -67,11 +67,25 @@ pub(super) fn read(of: &Object<'_>, unit: &Unit) -> Option<NoiseFile> {
             Some(NoiseFile::Channel((inner.text("channel")?.to_owned(), place), colour))
         }
         _ => {
-            let (from, to) = (inner.required("from"), inner.required("to"));
-            from.and(to)?;
-            let [from, to] = ["from", "to"].map(|key| quantity(&inner, key, "s"));
-            let (from, to) = (from?.si(), to?.si());
+            let [from, to] = between(&inner)?;
             Some(NoiseFile::Own(QuietPart::Between { from, to, colour }))
         }
     }
+}
+
+/// The part whose mean is taken off, if one is.
+#[expect(clippy::option_option, reason = "outside `None` after a mistake")]
+pub(super) fn baseline(of: &Object<'_>) -> Option<Option<[f64; 2]>> {
+    let Some(member) = of.get("baseline") else { return Some(None) };
+    let inner = Object::new(of.log, "`baseline`", &member.value, &member.key_span)?;
+    keys::check(&inner, keys::BASELINE);
+    between(&inner).map(Some)
+}
+
+/// Two instants in seconds, both of which must be there.
+pub(super) fn between(of: &Object<'_>) -> Option<[f64; 2]> {
+    let (from, to) = (of.required("from"), of.required("to"));
+    from.and(to)?;
+    let [from, to] = ["from", "to"].map(|key| quantity(of, key, "s"));
+    Some([from?.si(), to?.si()])
 }

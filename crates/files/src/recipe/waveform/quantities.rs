@@ -1,8 +1,8 @@
 //! The figures that are asked of a waveform.
 
 use super::super::check_name;
-use super::super::quantity::quantity;
 use super::Named;
+use super::noise::between;
 use crate::keys;
 use gumption_signal::WaveformQuantity;
 use gumption_text::DiagnosticKind;
@@ -85,7 +85,9 @@ fn one(object: &Object<'_>) -> Option<Asked> {
             WaveformQuantity::Ratio { channel: 0 }
         }
         _ => {
-            let between = between(object)?;
+            // both, or those of the record
+            let has_one = object.get("from").is_some() || object.get("to").is_some();
+            let between = if has_one { Some(between(object)?) } else { None };
             match which {
                 "integral" => WaveformQuantity::Integral { between },
                 _ => WaveformQuantity::SquaredIntegral { between },
@@ -101,16 +103,4 @@ fn one(object: &Object<'_>) -> Option<Asked> {
         None => which.replace('-', "_"),
     };
     Some(Asked { quantity: found, name, other })
-}
-
-/// The instants between which an integral is taken: both, or those of the record.
-#[expect(clippy::option_option, reason = "outside `None` after a mistake")]
-fn between(object: &Object<'_>) -> Option<Option<[f64; 2]>> {
-    if object.get("from").is_none() && object.get("to").is_none() {
-        return Some(None);
-    }
-    let (from, to) = (object.required("from"), object.required("to"));
-    from.and(to)?;
-    let [from, to] = ["from", "to"].map(|key| quantity(object, key, "s"));
-    Some(Some([from?.si(), to?.si()]))
 }
