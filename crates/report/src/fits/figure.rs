@@ -62,10 +62,10 @@ impl Shown {
         let around: Vec<(f64, f64)> = above.chain(below).collect();
         chart.draw(&Polygon::new(around, EVEN.mix(0.45).filled()))?;
         let line = self.band.iter().map(|[at, y, _]| (x.position(*at), *y));
-        let line: Vec<(f64, f64)> = match self.are_residuals {
-            true => line.clone().take(1).chain(line.last()).collect(),
-            false => line.collect(),
-        };
+        let mut line: Vec<(f64, f64)> = line.collect();
+        if self.are_residuals && line.len() > 2 {
+            line.drain(1..line.len() - 1);
+        }
         chart.draw(&PathElement::new(line, stroke(AFTER, 1.5)))?;
         for [at, y, bar] in &self.points {
             let at = x.position(*at);
