@@ -204,6 +204,7 @@ pub(crate) const STEPS: [(&str, &[&str]); 14] = [
             "low_pass",
             "truncation",
             "noise",
+            "baseline",
             "delay",
             "additional",
             "quantities",
