@@ -11,7 +11,9 @@ use super::results::ResultFiles;
 use super::scopes::ConditionSet;
 use super::shapes::{self, Estimate, Fields};
 use gumption_engine::distribution::{Distribution, Invalid};
-use gumption_engine::model::{FollowingConditions, OfConditions, Output, Quantity, Tolerance};
+use gumption_engine::model::{
+    FollowingConditions, GuardRule, OfConditions, Output, Quantity, Tolerance,
+};
 use gumption_text::json::{Json, Member};
 use gumption_text::object::Object;
 use gumption_text::other_names::other_name;
@@ -147,6 +149,7 @@ pub(super) fn read(
         let unit_place = object.get("unit").map_or(&member.key_span, |m| &m.value.span);
         let Decision {
             guard_factor,
+            guard_rule,
             specification,
             agreed,
             tolerance,
@@ -166,7 +169,7 @@ pub(super) fn read(
         output.following = follows.then(|| Arc::new(following));
         (output.period, output.capability) = (period, capability);
         (output.tolerance, output.prior, output.risk) = (tolerance, prior, risk);
-        output.guard_factor = guard_factor;
+        (output.guard_factor, output.guard_rule) = (guard_factor, guard_rule);
         (output.specification, output.rule_agreed) = (specification, agreed);
         outputs.outputs.push(output);
         outputs.places.push(member.key_span.clone());
@@ -182,6 +185,7 @@ struct Decision {
     prior: Option<Arc<Distribution>>,
     risk: Option<f64>,
     guard_factor: Option<f64>,
+    guard_rule: Option<GuardRule>,
     specification: Option<Arc<str>>,
     agreed: bool,
     lower: Option<OfConditions>,
@@ -216,7 +220,7 @@ impl Decision {
             let diagnostic = DiagnosticKind::NotProbability { key, found, below };
             object.log.report(&member.value.span, diagnostic);
         }
-        let guard_factor = guard_factor(&object);
+        let (guard_factor, guard_rule) = guard_band(&object);
         let specification = object.text("specification").map(Arc::from);
         let agreed = object.truth("agreed").unwrap_or(false);
         let prior = prior(&object, unit, results).map(Arc::new);
@@ -236,18 +240,62 @@ impl Decision {
         let ends = [lower.flatten(), upper.flatten()];
         let tolerance = tolerance(&object, unit, &ends, set);
         let [lower, upper] = ends;
-        Self { tolerance, prior, risk, guard_factor, specification, agreed, lower, upper, limits }
+        Self {
+            tolerance,
+            prior,
+            risk,
+            guard_factor,
+            guard_rule,
+            specification,
+            agreed,
+            lower,
+            upper,
+            limits,
+        }
     }
 }
 
-/// The guard band in multiples of U, which is a decision rule of its own beside a wanted risk.
-fn guard_factor(tolerance: &Object<'_>) -> Option<f64> {
-    let member = tolerance.get("guard_band")?;
+/// The guard band, which is a decision rule of its own beside a wanted risk: in multiples of U, or a
+/// rule with a name.
+fn guard_band(tolerance: &Object<'_>) -> (Option<f64>, Option<GuardRule>) {
+    let Some(member) = tolerance.get("guard_band") else { return (None, None) };
     if tolerance.get("risk").is_some() {
         let diagnostic = DiagnosticKind::Exclusive { first: "risk", second: "guard_band" };
         tolerance.log.report(&member.key_span, diagnostic);
+        return (None, None);
+    }
+    match &member.value.value {
+        Json::Text(name) => (None, guard_rule(tolerance, member, name)),
+        _ => (guard_factor(tolerance, member), None),
+    }
+}
+
+/// The rule of a name, which needs both limits.
+fn guard_rule(tolerance: &Object<'_>, member: &Member, name: &str) -> Option<GuardRule> {
+    let names = GuardRule::ALL.map(|rule| format!("\"{}\"", rule.name())).join(", ");
+    let report = |reason: String| {
+        let (key, found) = ("guard_band".to_owned(), name.to_owned());
+        tolerance.log.report(&member.value.span, DiagnosticKind::Value { key, found, reason });
+    };
+    let Some(rule) = GuardRule::named(name) else {
+        report(format!("it is a number r, for a guard band of r U, or one of {names}"));
+        return None;
+    };
+    let is_there = |key: &&str| {
+        tolerance.get(key).is_some_and(|member| !matches!(member.value.value, Json::Null))
+    };
+    if let Some(missing) = ["lower", "upper"].iter().find(|key| !is_there(key)) {
+        report(format!(
+            "the rule is for two limits, and `{missing}` is not there; for one limit write a number r, \
+             or `risk`"
+        ));
         return None;
     }
+    Some(rule)
+}
+
+/// The guard band in multiples of U.
+fn guard_factor(tolerance: &Object<'_>, member: &Member) -> Option<f64> {
     let found = tolerance.number("guard_band")?;
     if !(found > 0.0 && found.is_finite()) {
         let (key, range) = ("guard_band".into(), "above 0, in multiples of U");

@@ -10,6 +10,8 @@ use super::fits::FitSide;
 use super::json_inputs::{InputsSide, RowInputs, varying};
 use super::regions::RegionSide;
 use super::subtotals::Subtotals;
+use super::table::comparison::is_four_to_one;
+use gumption_engine::model::GuardRule;
 use gumption_engine::propagate::DifferenceCause;
 use gumption_engine::propagate::gum::{BudgetLine, CorrelationLine, Dof, Gum};
 use gumption_engine::propagate::monte_carlo::{MonteCarlo, NumericalError};
@@ -17,7 +19,7 @@ use gumption_engine::propagate::{
     Accuracy, CapabilityStatement, Conformity, Evaluation, Noiseless, OutputEvaluation,
     RowEvaluation, SecondOrder, validate,
 };
-use gumption_engine::task::{Task, Trials};
+use gumption_engine::task::{Coverage, Task, Trials};
 
 /// The answer as JSON, keys in a fixed order, numbers in the shortest text that reads back as the
 /// same number, `null` for what is infinite or not defined. It ends in a newline.
@@ -140,7 +142,10 @@ impl Serialize for Outputs<'_> {
                 exact: noiseless.map(|found| found.as_deref().ok().map(NoiselessSide::of)),
                 why: noiseless.and_then(|found| found.as_ref().err()).map(String::as_str),
                 validation: Validation::of(evaluation, task.settings.statement_tolerance),
-                conformity: evaluation.conformity.as_deref().map(ConformitySide::of),
+                conformity: evaluation
+                    .conformity
+                    .as_deref()
+                    .map(|found| ConformitySide::of(found, task.settings.coverage)),
                 cmc: evaluation.capability.as_deref().map(CmcSide::of),
             };
             (&output.quantity.name, side)
@@ -389,6 +394,11 @@ struct ConformitySide {
     global_risk: Option<Risks>,
     #[serde(skip_serializing_if = "Option::is_none")]
     guard_band: Option<GuardBand>,
+    /// The test uncertainty ratio, and whether it is that of the 4:1 rule.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    tur: Option<f64>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    four_to_one: Option<bool>,
 }
 
 /// Risks of deciding wrongly; `null` for the decision that was not taken.
@@ -396,6 +406,9 @@ struct ConformitySide {
 struct Risks {
     false_acceptance: Option<f64>,
     false_rejection: Option<f64>,
+    /// The share of accepted items that does not conform.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    conditional_false_acceptance: Option<f64>,
 }
 
 /// The guard band for a wanted risk, or in multiples of U; `null` where no value has so small a one.
@@ -406,18 +419,22 @@ struct GuardBand {
     /// In expanded uncertainties.
     #[serde(skip_serializing_if = "Option::is_none")]
     factor: Option<f64>,
+    /// The name of the rule.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    rule: Option<&'static str>,
     width: Option<f64>,
     lower: Option<f64>,
     upper: Option<f64>,
 }
 
 /// What is decided about a tolerance, as answers have it.
-pub(crate) fn decision_value(found: &Conformity) -> serde_json::Value {
-    serde_json::to_value(ConformitySide::of(found)).unwrap_or(serde_json::Value::Null)
+pub(crate) fn decision_value(found: &Conformity, coverage: Coverage) -> serde_json::Value {
+    serde_json::to_value(ConformitySide::of(found, coverage)).unwrap_or(serde_json::Value::Null)
 }
 
 impl ConformitySide {
-    fn of(conformity: &Conformity) -> Self {
+    fn of(conformity: &Conformity, coverage: Coverage) -> Self {
+        let ratio = conformity.test_uncertainty_ratio().filter(|_| coverage.is_about_95());
         let specific = conformity.specific_risk();
         let accepted = conformity.conforms;
         let acceptance = conformity.acceptance;
@@ -432,18 +449,24 @@ impl ConformitySide {
             specific_risk: Risks {
                 false_acceptance: accepted.then_some(specific),
                 false_rejection: (!accepted).then_some(specific),
+                conditional_false_acceptance: None,
             },
             global_risk: conformity.global.map(|risks| Risks {
                 false_acceptance: Some(risks.false_acceptance),
                 false_rejection: Some(risks.false_rejection),
+                conditional_false_acceptance: (risks.acceptance > 0.0)
+                    .then(|| risks.conditional_false_acceptance()),
             }),
             guard_band: conformity.is_guarded().then_some(GuardBand {
                 risk: conformity.wanted_risk,
                 factor: conformity.guard_factor,
+                rule: conformity.guard_rule.map(GuardRule::name),
                 width: conformity.guard_band,
                 lower: acceptance.and_then(|limits| limits.lower),
                 upper: acceptance.and_then(|limits| limits.upper),
             }),
+            tur: ratio,
+            four_to_one: ratio.map(is_four_to_one),
         }
     }
 }

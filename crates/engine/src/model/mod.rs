@@ -4,6 +4,7 @@
 //! formulas in a file: quantities on both sides and a [`Program`] between them.
 
 pub mod formula;
+mod guard_rule;
 mod interpolation;
 mod of_conditions;
 mod program;
@@ -12,6 +13,7 @@ mod schedule;
 mod slopes;
 mod trace;
 pub mod typed;
+pub use guard_rule::GuardRule;
 pub use interpolation::{Interpolation, InterpolationMethod, TableFault};
 pub use of_conditions::{FollowingConditions, OfConditions};
 pub use program::Node;
@@ -70,6 +72,8 @@ pub struct Output {
     pub risk: Option<f64>,
     /// The width of the guard band in expanded uncertainties (ILAC-G8:09/2019, 4.2.2).
     pub guard_factor: Option<f64>,
+    /// The rule of a name that gives the width of the guard band; it needs two limits.
+    pub guard_rule: Option<GuardRule>,
     /// What the tolerance is that of, in words: `DIN EN 60751 class A`.
     pub specification: Option<Arc<str>>,
     /// Whether the decision rule was agreed with the customer (ISO/IEC 17025, 7.1.3).
@@ -92,6 +96,7 @@ impl Output {
             prior,
             risk,
             guard_factor: None,
+            guard_rule: None,
             specification: None,
             rule_agreed: false,
             capability,

@@ -141,7 +141,9 @@ fn units_and_names_are_clear() {
     for constant in &MEASURED {
         assert!(Unit::parse(constant.unit).is_ok(), "{}", constant.unit);
         let alike = |other: &&MeasuredConstant| {
-            [other.name, other.symbol].iter().any(|name| [constant.name, constant.symbol].contains(name))
+            [other.name, other.symbol]
+                .iter()
+                .any(|name| [constant.name, constant.symbol].contains(name))
         };
         assert_eq!(MEASURED.iter().filter(alike).count(), 1, "{}", constant.name);
     }

@@ -3,6 +3,7 @@
 use super::node::{With, object, reference, texts};
 use super::values::whole;
 use super::{Key, closed, described, keys, named, referenced, text_of};
+use gumption_engine::model::GuardRule;
 use serde_json::Value;
 
 pub(super) fn definitions() -> Vec<(String, Value)> {
@@ -195,14 +196,18 @@ pub(crate) const TOLERANCE: &[Key] = keys![
     "risk" => described("number", "The wanted risk of false acceptance, for guard bands.")
                 .with("exclusiveMinimum", 0)
                 .with("exclusiveMaximum", 0.5),
-    "guard_band" => described(
-        "number",
-        "The width of the guard band in multiples of the expanded uncertainty U (ILAC-G8: 1).",
-    )
-    .with("exclusiveMinimum", 0),
+    "guard_band" => guard_band(),
     "specification" => described("string", "The specification that states the tolerance, for certificates."),
     "agreed" => described("boolean", "Whether the decision rule was agreed with the customer."),
 ];
+
+fn guard_band() -> Value {
+    let about = "The width of the guard band in multiples of the expanded uncertainty U (ILAC-G8: 1), or \
+                 the name of a rule.";
+    let factor = object([("type", Value::from("number")), ("exclusiveMinimum", Value::from(0))]);
+    let rule = object([("enum", texts(GuardRule::ALL.map(GuardRule::name)))]);
+    object([("description", Value::from(about)), ("anyOf", Value::from(vec![factor, rule]))])
+}
 
 fn limit(about: &str) -> Value {
     let formula = object([("type", Value::from("string"))]);

@@ -1,7 +1,7 @@
 //! The distributions, with the keys that each of them has.
 
-use super::node::{With, object, reference, texts};
 use super::super::codata::MEASURED;
+use super::node::{With, object, reference, texts};
 use super::{Key, closed, closed_of, described, keys, referenced, text_of};
 use serde_json::Value;
 
