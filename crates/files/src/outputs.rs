@@ -12,7 +12,7 @@ use super::scopes::ConditionSet;
 use super::shapes::{self, Estimate, Fields};
 use gumption_engine::distribution::{Distribution, Invalid};
 use gumption_engine::model::{
-    FollowingConditions, GuardRule, OfConditions, Output, Quantity, Tolerance,
+    CapabilityLine, FollowingConditions, GuardRule, OfConditions, Output, Quantity, Tolerance,
 };
 use gumption_text::json::{Json, Member};
 use gumption_text::object::Object;
@@ -54,7 +54,7 @@ impl Outputs {
             }
             None => return,
         };
-        for key in ["periodic", "tolerance", "cmc", "cmc_floor"] {
+        for key in ["periodic", "tolerance", "cmc", "cmc_floor", "cmc_line"] {
             if let Some(second) = object.get(key) {
                 let reason = format!(
                     "is complex, and `{key}` is of a real output; give its part, such as \
@@ -140,6 +140,7 @@ pub(super) fn read(
             log.report(&member.value.span, diagnostic);
         }
         let capability = output_limits::capability(&object, &member.key, &unit, set);
+        let capability_line = capability_line(&object, set);
         let decision = Decision::read(&object, &unit, results, set);
         let quantity = Quantity {
             name: member.key.clone(),
@@ -168,6 +169,7 @@ pub(super) fn read(
         let follows = lower.is_some() || upper.is_some() || of_rows.is_some();
         output.following = follows.then(|| Arc::new(following));
         (output.period, output.capability) = (period, capability);
+        output.capability_line = capability_line;
         (output.tolerance, output.prior, output.risk) = (tolerance, prior, risk);
         (output.guard_factor, output.guard_rule) = (guard_factor, guard_rule);
         (output.specification, output.rule_agreed) = (specification, agreed);
@@ -176,6 +178,42 @@ pub(super) fn read(
         outputs.unit_places.push(unit_place.clone());
     }
     Some(outputs)
+}
+
+/// The line over a condition that is to be fitted to U of the rows.
+fn capability_line(output: &Object<'_>, set: &ConditionSet<'_>) -> Option<CapabilityLine> {
+    let member = output.get("cmc_line")?;
+    let object = Object::new(output.log, "`cmc_line`", &member.value, &member.key_span)?;
+    keys::check(&object, keys::CMC_LINE);
+    let (over, form) = (object.required("over")?, object.required("form")?);
+    let allowed = |key: &str, member: &Member, found: &str, allowed: Vec<String>| {
+        let (key, found) = (key.to_owned(), found.to_owned());
+        object.log.report(&member.value.span, DiagnosticKind::NotOneOf { key, found, allowed });
+    };
+    let name = object.text("over")?;
+    let quantities = &set.conditions.quantities;
+    let condition = quantities.iter().position(|quantity| quantity.name == name);
+    let Some(condition) = condition else {
+        let names = quantities.iter().map(|quantity| quantity.name.clone()).collect();
+        allowed("over", over, name, names);
+        return None;
+    };
+    let found = object.text("form")?;
+    if !["Q", "sum"].contains(&found) {
+        allowed("form", form, found, vec!["Q".to_owned(), "sum".to_owned()]);
+        return None;
+    }
+    let digits = match object.get("digits") {
+        None => 2.0,
+        Some(_) => object.number("digits")?,
+    };
+    if !(1.0..=6.0).contains(&digits) || digits.fract() != 0.0 {
+        let place = object.get("digits").map_or(object.place(), |digits| &digits.value.span);
+        let (key, range) = ("digits".to_owned(), "a whole number from 1 to 6");
+        object.log.report(place, DiagnosticKind::OutOfRange { key, found: digits, range });
+        return None;
+    }
+    Some(CapabilityLine { condition, is_quadratic: found == "Q", digits: digits as u32 })
 }
 
 /// What is to be decided about an output.

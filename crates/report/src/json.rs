@@ -11,7 +11,8 @@ use super::json_inputs::{InputsSide, RowInputs, varying};
 use super::regions::RegionSide;
 use super::subtotals::Subtotals;
 use super::table::comparison::is_four_to_one;
-use gumption_engine::model::GuardRule;
+use super::table::sweep;
+use gumption_engine::model::{GuardRule, Output};
 use gumption_engine::propagate::DifferenceCause;
 use gumption_engine::propagate::gum::{BudgetLine, CorrelationLine, Dof, Gum};
 use gumption_engine::propagate::monte_carlo::{MonteCarlo, NumericalError};
@@ -53,9 +54,36 @@ struct EvaluationAnswer<'a> {
     #[serde(flatten)]
     results: EvaluationResults<'a>,
     #[serde(serialize_with = "in_order", skip_serializing_if = "Vec::is_empty")]
+    cmc_lines: Vec<(&'a str, LineSide<'a>)>,
+    #[serde(serialize_with = "in_order", skip_serializing_if = "Vec::is_empty")]
     fits: Vec<(&'a str, FitSide<'a>)>,
     warnings: Vec<crate::words::Note<'a>>,
     provenance: Origin<'a>,
+}
+
+/// A line that lies on or above U of all rows.
+#[derive(Serialize)]
+struct LineSide<'a> {
+    over: &'a str,
+    form: &'static str,
+    a: f64,
+    b: f64,
+    /// Over all rows.
+    mean_excess: f64,
+}
+
+impl<'a> LineSide<'a> {
+    /// Those of all outputs that have one.
+    fn all(task: &'a Task, rows: &[RowEvaluation]) -> Vec<(&'a str, Self)> {
+        let one = |(place, output): (usize, &'a Output)| {
+            let (asked, line, mean_excess) = sweep::capability_line(task, rows, place)?;
+            let over = task.model.conditions.get(asked.condition)?.name.as_str();
+            let form = if asked.is_quadratic { "Q" } else { "sum" };
+            let side = Self { over, form, a: line.constant, b: line.slope, mean_excess };
+            Some((output.quantity.name.as_str(), side))
+        };
+        task.model.outputs.iter().enumerate().filter_map(one).collect()
+    }
 }
 
 /// The typed model that was evaluated.
@@ -538,6 +566,7 @@ struct Origin<'a> {
 impl<'a> EvaluationAnswer<'a> {
     fn of(report: &EvaluationReport<'a>) -> Self {
         let EvaluationReport { task, evaluation, warnings, provenance } = *report;
+        let cmc_lines = LineSide::all(task, &evaluation.rows);
         let results = match evaluation.rows.first() {
             Some(row) if !task.swept => {
                 EvaluationResults::Single(Figures::of(task, row, evaluation.stopped))
@@ -567,6 +596,7 @@ impl<'a> EvaluationAnswer<'a> {
             equations: &task.statement.equations,
             inputs: InputsSide { task },
             results,
+            cmc_lines,
             fits: task.curves.iter().map(|c| (c.fit.name.as_str(), FitSide::of(c))).collect(),
             warnings: crate::words::notes(warnings),
             provenance: Origin {

@@ -80,6 +80,8 @@ pub struct Output {
     pub rule_agreed: bool,
     /// The smallest expanded uncertainty that the laboratory may state.
     pub capability: Option<Capability>,
+    /// The line over a condition that is to lie on or above U of all rows.
+    pub capability_line: Option<CapabilityLine>,
     /// Limits and capability that are others in every row of conditions. Where there are such,
     /// `tolerance` and `capability` are those of the first row.
     pub following: Option<Arc<FollowingConditions>>,
@@ -100,6 +102,7 @@ impl Output {
             specification: None,
             rule_agreed: false,
             capability,
+            capability_line: None,
             following: None,
         }
     }
@@ -132,6 +135,17 @@ pub struct Capability {
     pub absolute: f64,
     /// Whether a smaller expanded uncertainty is raised to it.
     pub floor: bool,
+}
+
+/// A line over a condition, to be fitted to the expanded uncertainties of all rows.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct CapabilityLine {
+    /// The place of the condition.
+    pub condition: usize,
+    /// Whether the terms add in squares, Q\[a; bL\], and not as a + b L.
+    pub is_quadratic: bool,
+    /// Significant digits of both numbers.
+    pub digits: u32,
 }
 
 impl Capability {

@@ -11,6 +11,7 @@ pub(super) fn definitions() -> Vec<(String, Value)> {
         ("model", root()),
         ("output", output()),
         ("tolerance", tolerance()),
+        ("cmc-line", cmc_line()),
         ("conditions", conditions()),
         ("condition", condition()),
         ("table-of-conditions", table_of_conditions()),
@@ -172,7 +173,24 @@ pub(crate) const OUTPUT: &[Key] = keys![
     "tolerance" => reference("tolerance"),
     "cmc" => referenced("width", "The laboratory's capability: its smallest expanded uncertainty."),
     "cmc_floor" => described("boolean", "Raise a smaller expanded uncertainty to `cmc`."),
+    "cmc_line" => reference("cmc-line"),
 ];
+
+/// Keys of `cmc_line`.
+pub(crate) const CMC_LINE: &[Key] = keys![
+    "over" => referenced("name", "The condition L."),
+    "form" => described("string", "`Q` for Q[a; bL] = sqrt(a^2 + (b L)^2), `sum` for a + b L.")
+                .with("enum", texts(["Q", "sum"])),
+    "digits" => whole("Significant digits of a and b; 2.", 1, 6),
+];
+
+fn cmc_line() -> Value {
+    closed(
+        "The smallest line over a condition that lies on or above U of all rows, for a CMC.",
+        CMC_LINE,
+        &["over", "form"],
+    )
+}
 
 fn output() -> Value {
     closed("A quantity to report.", OUTPUT, &[])
