@@ -100,7 +100,7 @@ pub(crate) fn capability_line(
     let points: Vec<(f64, f64)> = rows.iter().map(point).collect::<Option<_>>()?;
     let form = if asked.is_quadratic { LineForm::Quadratic } else { LineForm::Linear };
     let line = capability_line::fit(&points, form, asked.digits)?;
-    let excess = points.iter().map(|(at, expanded)| line.at(*at) / expanded - 1.0);
+    let excess = points.iter().map(|(at, expanded)| (line.at(*at) / expanded - 1.0).max(0.0));
     Some((asked, line, excess.sum::<f64>() / points.len() as f64))
 }
 
@@ -124,9 +124,9 @@ pub(crate) fn capability_line_text(
         unit => format!(", {name} in {unit}"),
     };
     Some(format!(
-        "CMC line: {text}{of}. U of all {} rows lies on or below it (k of this page), on average {} % below.",
+        "CMC line: {text}{of}. U of all {} rows lies on or below it (k of this page), on average by {} %.",
         rows.len(),
-        significant(100.0 * excess, 2)
+        rounded(100.0 * excess, -1)
     ))
 }
 
