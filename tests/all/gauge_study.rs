@@ -45,7 +45,7 @@ fn tables_and_options_that_are_wrong() {
         ("part,operator,value\n1,A,1\n2,A,2\n", &[], "at least two operators"),
         ("part,operator,value\n1,A,1 mm\n1,A,2 s\n", &[], "not in the unit of the others"),
         (table, &["--sigma", "1"], "`--sigma` is for `--scheme iso13528`"),
-        (table, &["--upper", "1 mm"], "no unit to convert it to"),
+        (table, &["--upper", "1 mm"], "a plain number"),
         (table, &["--lower", "2", "--upper", "1"], "below `--upper`"),
     ] {
         let (code, _, errors) = compare(table, options);

@@ -233,7 +233,7 @@ struct Decision {
 }
 
 /// Shapes that a prior cannot have: it is about many items.
-const NO_PRIORS: [&str; 4] = ["constant", "readings", "samples", "result"];
+const NO_PRIORS: [&str; 5] = ["constant", "readings", "samples", "result", "codata"];
 
 impl Decision {
     fn read(
