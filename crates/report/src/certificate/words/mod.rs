@@ -248,7 +248,7 @@ mod tests {
             marks.sort_unstable();
             marks
         }
-        let templates: [fn(&Words) -> &'static str; 33] = [
+        let templates: [fn(&Words) -> &'static str; 36] = [
             |w| w.period,
             |w| w.rows[0],
             |w| w.rows[1],
