@@ -325,8 +325,8 @@ pub mod distribution {
 /// Measurement models: named quantities and the function between them.
 pub mod model {
     pub use gumption_engine::model::{
-        Capability, InputQuantity, Model, NumberForm, Output, Program, Quantity, Recorder,
-        Tolerance, Traced, formula, typed,
+        Capability, GuardRule, InputQuantity, Model, NumberForm, Output, Program, Quantity,
+        Recorder, Tolerance, Traced, formula, typed,
     };
 }
 

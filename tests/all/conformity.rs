@@ -695,3 +695,64 @@ fn levels_have_no_relative_uncertainty() {
         assert_eq!(line.split_whitespace().nth(3), Some(share), "{page}");
     }
 }
+
+/// Guard bands by their names, with U = 0.8 um of k = 2 and T = 2 um, so TUR = 2.5: RSS accepts to
+/// sqrt(4 - 0.64), RP-10 to 2.5 - 0.8, Dobbert's rule to 2 - 0.8 M with M = 1.04 - exp(0.38 ln 2.5 - 0.54);
+/// by hand, to 1e-9. The 4:1 rule holds from U = 0.5 um on.
+#[test]
+fn guard_bands_have_names() {
+    let prior = r#""prior": {"distribution": "normal", "mean": 0, "std": 1}"#;
+    let of = |rule: &str, std: f64, more: &[&str]| {
+        let keys =
+            format!(r#""tolerance": {{"lower": -2, "upper": 2, "guard_band": "{rule}", {prior}}}"#);
+        answer_with(&model(1.2, std, &keys), more)["outputs"]["y"]["conformity"].clone()
+    };
+    let m = 1.04 - f64::exp(0.38 * f64::ln(2.5) - 0.54);
+    for (rule, upper) in [("rss", f64::sqrt(3.36)), ("rp-10", 1.7), ("dobbert", 2.0 - 0.8 * m)] {
+        let found = of(rule, 0.4, &[]);
+        assert_eq!(found["guard_band"]["rule"], rule);
+        assert!((number(&found["guard_band"]["upper"]) - upper).abs() < 1e-9, "{found}");
+        assert!((number(&found["guard_band"]["lower"]) + upper).abs() < 1e-9, "{found}");
+        assert!((number(&found["tur"]) - 2.5).abs() < 1e-9 && found["four_to_one"] == false);
+        // without trials the same
+        assert!(
+            (number(&of(rule, 0.4, &["--trials", "0"])["guard_band"]["upper"]) - upper).abs()
+                < 1e-9
+        );
+        let keys = format!(r#""tolerance": {{"lower": -2, "upper": 2, "guard_band": "{rule}"}}"#);
+        let text = model(1.2, 0.4, &keys);
+        let live = |label: &str| match &cells(&text, label)[..] {
+            [Data::Float(value)] => *value,
+            other => panic!("{other:?}"),
+        };
+        assert!((live("acceptance, to") - upper).abs() < 1e-9);
+    }
+    let found = of("rss", 0.25, &[]);
+    assert_eq!((&found["tur"], &found["four_to_one"]), (&json!(4.0), &json!(true)));
+    // the conditional risk is above the global one by the share that is accepted
+    let global = &found["global_risk"];
+    let accepted =
+        number(&global["false_acceptance"]) / number(&global["conditional_false_acceptance"]);
+    assert!(accepted > 0.9 && accepted < 0.95, "{accepted}");
+    // U above T: nothing is accepted
+    let found = of("rss", 1.1, &[]);
+    assert_eq!((&found["conforms"], &found["guard_band"]["width"]), (&json!(false), &json!(null)));
+    // for another coverage there is no TUR, and the page says what U is of
+    let keys = r#""tolerance": {"lower": -2, "upper": 2, "guard_band": "rss"}"#;
+    let other = model(1.2, 0.4, keys).replacen('{', "{\"coverage_factor\": 3, ", 1);
+    assert!(answer(&other)["outputs"]["y"]["conformity"].get("tur").is_none());
+    let (_, page, _) = run(&other, &["--full"]);
+    let page = page.split_whitespace().collect::<Vec<_>>().join(" ");
+    assert!(page.contains("the rule has it for approximately 95 %"), "{page}");
+    for (tolerance, said) in [
+        (r#""tolerance": {"upper": 2, "guard_band": "rss"}"#, "`lower` is not there"),
+        (r#""tolerance": {"lower": 0, "upper": 2, "guard_band": "rds"}"#, "\"dobbert\""),
+        (
+            r#""tolerance": {"lower": 0, "upper": 2, "risk": 0.02, "guard_band": "rss"}"#,
+            "`guard_band`",
+        ),
+    ] {
+        let (code, _, errors) = run(&model(1.2, 0.4, tolerance), &[]);
+        assert!(code == Some(2) && errors.contains(said), "{errors}");
+    }
+}

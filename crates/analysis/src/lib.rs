@@ -4,6 +4,7 @@
 #![cfg_attr(test, allow(clippy::disallowed_methods))] // tests compare within tolerances
 #![deny(unsafe_code)]
 
+pub mod capability_line;
 pub mod certificate;
 pub mod compare;
 pub mod diff;

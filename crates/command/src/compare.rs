@@ -7,7 +7,8 @@ use clap::{Args, ValueEnum};
 use super::options::{self, AnswerOptions, Interactive};
 use super::{Exit, Failure};
 use gumption_analysis::compare::{
-    Estimator, Impossible, Participant, ProficiencyTest, ResultPair, laboratories, proficiency,
+    Estimator, GaugeStudy, Impossible, Interaction, Participant, ProficiencyTest, ResultPair,
+    StudyReading, gauge, laboratories, proficiency,
 };
 use gumption_engine::task::Warning;
 use gumption_foreign::{ComparisonOptions, ComparisonTable, ReadComparison};
@@ -19,7 +20,7 @@ use gumption_units::{Unit, nearest};
 pub(super) struct Compare {
     /// The table, CSV or XLSX: columns label, x1, U1, x2, U2 and optionally k1, k2, r; for
     /// laboratories label, x, U and optionally k; for a proficiency test label, x and optionally U,
-    /// k; - for CSV on standard input
+    /// k; for a gauge study part, operator, value; - for CSV on standard input
     table: PathBuf,
     /// The sheet of the workbook, if several contain a table
     #[arg(long, value_name = "NAME")]
@@ -35,7 +36,8 @@ pub(super) struct Compare {
     /// that of the largest consistent subset if they are not consistent
     #[arg(long, value_name = "NAME", value_parser = estimator)]
     estimator: Option<Estimator>,
-    /// Score the results as those of a proficiency test by this standard
+    /// Score the results as those of a proficiency test by this standard, or evaluate the readings of
+    /// a gauge study (repeatability and reproducibility)
     #[arg(
         long,
         value_name = "NAME",
@@ -52,11 +54,20 @@ pub(super) struct Compare {
     /// in the unit of the results, or a percentage of the assigned value
     #[arg(long, value_name = "VALUE", requires = "scheme", allow_hyphen_values = true)]
     sigma: Option<String>,
+    /// Lower limit of the tolerance of the parts, for a gauge study
+    #[arg(long, value_name = "VALUE", requires = "scheme", allow_hyphen_values = true)]
+    lower: Option<String>,
+    /// Upper limit of the tolerance of the parts, for a gauge study
+    #[arg(long, value_name = "VALUE", requires = "scheme", allow_hyphen_values = true)]
+    upper: Option<String>,
+    /// The interaction of operators and parts in a gauge study
+    #[arg(long, value_name = "NAME", requires = "scheme")]
+    interaction: Option<KeptInteraction>,
     /// Show the range of the normalized error that the printed digits allow
     #[arg(long)]
     rounding: bool,
-    /// Exit with code 3 if results are not compatible, laboratories not consistent, or a participant
-    /// has an action signal or no score
+    /// Exit with code 3 if results are not compatible, laboratories not consistent, a participant has
+    /// an action signal or no score, or a gauge has a GRR above 30 %
     #[arg(long)]
     fail: bool,
     #[command(flatten)]
@@ -85,6 +96,19 @@ enum CompareFormat {
 enum Scheme {
     /// ISO 13528:2022
     Iso13528,
+    /// AIAG, Measurement Systems Analysis, 4th ed.: gauge R&R by analysis of variance
+    GaugeRr,
+}
+
+/// What is done with the interaction of operators and parts.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+enum KeptInteraction {
+    /// Keep it if its F test has a probability of at most 5 % (the default)
+    Tested,
+    /// Keep it
+    Kept,
+    /// Pool it with repeatability
+    Pooled,
 }
 
 /// The estimators by name, and by short forms for two of them.
@@ -110,7 +134,9 @@ impl Compare {
             correlations: self.correlations.as_deref(),
             sheet: self.sheet.as_deref(),
             is_proficiency_test: self.scheme == Some(Scheme::Iso13528),
+            is_gauge_study: self.scheme == Some(Scheme::GaugeRr),
         };
+        self.check_options()?;
         let text = |text: &str| gumption_foreign::read_comparison_text("<stdin>", text, options);
         let table = options::given(&self.table, text, |path| {
             gumption_foreign::read_comparison(path, options)
@@ -152,6 +178,10 @@ impl Compare {
                 warnings.extend(test.notes.iter().cloned().map(|fact| Warning::new("", fact)));
                 ComparedPair::Proficiency { test, unit }
             }
+            ComparisonTable::Gauge(readings) => {
+                let unit = units.into_iter().next().unwrap_or_default();
+                ComparedPair::Gauge { study: self.studied(&readings, &unit)?, unit }
+            }
         };
         self.answer.say(&warnings);
         let answer = || match self.answer.format {
@@ -163,6 +193,51 @@ impl Compare {
         };
         self.answer.write_page(place, answer)?;
         Ok(if self.fail && !found.is_compatible() { Exit::No } else { Exit::Done })
+    }
+
+    /// That options are those of the scheme.
+    fn check_options(&self) -> Result<(), Failure> {
+        let is_there = |of: &Option<String>| of.is_some();
+        let of_scores =
+            [("--assigned", is_there(&self.assigned)), ("--sigma", is_there(&self.sigma))];
+        let of_study = [
+            ("--lower", is_there(&self.lower)),
+            ("--upper", is_there(&self.upper)),
+            ("--interaction", self.interaction.is_some()),
+        ];
+        let (others, wanted) = match self.scheme {
+            Some(Scheme::GaugeRr) => (&of_scores[..], "iso13528"),
+            _ => (&of_study[..], "gauge-rr"),
+        };
+        match others.iter().find(|(_, is_there)| *is_there) {
+            Some((option, _)) => {
+                Err(Failure::Argument(format!("`{option}` is for `--scheme {wanted}`")))
+            }
+            None => Ok(()),
+        }
+    }
+
+    /// The study of a gauge whose readings are in `unit`; an empty text if none is stated.
+    fn studied(&self, readings: &[StudyReading], unit: &str) -> Result<GaugeStudy, Failure> {
+        let unit = if unit.is_empty() { None } else { Unit::parse(unit).ok() };
+        let limit = |option: &str, text: &Option<String>| {
+            gumption_foreign::limit_of(option, text.as_deref(), unit.as_ref())
+                .map_err(Failure::Argument)
+        };
+        let limits = [limit("--lower", &self.lower)?, limit("--upper", &self.upper)?];
+        if let [Some(lower), Some(upper)] = limits
+            && lower >= upper
+        {
+            let message = "`--lower` must be below `--upper`";
+            return Err(Failure::Argument(message.to_owned()));
+        }
+        let interaction = match self.interaction {
+            Some(KeptInteraction::Kept) => Interaction::Kept,
+            Some(KeptInteraction::Pooled) => Interaction::Pooled,
+            Some(KeptInteraction::Tested) | None => Interaction::Tested,
+        };
+        gauge::study(readings, interaction, limits)
+            .map_err(|error| Failure::Argument(format!("{}: {error}", self.table.display())))
     }
 
     /// The scores of participants whose results are in `unit`; an empty text if none is stated.

@@ -57,6 +57,7 @@ pub(super) fn read(
     if let Some(member) = root.get("correlation_matrix") {
         reader.matrix(root.log, member, folder, files);
     }
+    warnings.extend(reader.constants());
     reader.from_certificates = reader.found.len();
     warnings.extend(reader.certified());
     if reader.are_shared_alike(root) {
@@ -114,6 +115,27 @@ impl CorrelationsReader<'_> {
         }
         let note =
             |kept| Warning::new("", fact!("certificate-correlation", pairs = links::some(kept)));
+        (!kept.is_empty()).then(|| note(kept))
+    }
+
+    /// Adds the coefficients between measured constants, where the file states no others.
+    fn constants(&mut self) -> Option<Warning> {
+        let constants = &self.inputs.constants;
+        let mut kept: Vec<Fact> = Vec::new();
+        for (place, &(second, b)) in constants.iter().enumerate() {
+            for &(first, a) in constants.iter().take(place) {
+                let r = a.correlation(b);
+                if r == 0.0 || !self.pairs.insert((first, second)) {
+                    continue;
+                }
+                self.found.push(Correlation { first, second, coefficient: r });
+                self.places.push(self.inputs.places.get(second).cloned().unwrap_or(0..0));
+                let [first, second] = [first, second].map(|variable| self.name(variable));
+                let coefficient = Argument::number(decimal::rounded(r, -5));
+                kept.push(fact!("pair.correlated", first, second, coefficient));
+            }
+        }
+        let note = |kept| Warning::new("", fact!("codata-correlation", pairs = links::some(kept)));
         (!kept.is_empty()).then(|| note(kept))
     }
 

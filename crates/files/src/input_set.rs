@@ -3,6 +3,7 @@
 
 use std::ops::Range;
 
+use super::codata::MeasuredConstant;
 use super::dcc::Certified;
 use super::known::KnownVariables;
 use super::model_readings::ModelReadings;
@@ -41,6 +42,8 @@ pub(super) struct InputSet {
     /// Variables, by name, that are results of a certificate which says how its results vary together,
     /// with the name of its file.
     pub(super) certified: Vec<(String, Certified, String)>,
+    /// The variables that are measured constants.
+    pub(super) constants: Vec<(usize, &'static MeasuredConstant)>,
     /// Variables, by name, that are values of a certificate, with their place in it.
     pub(super) from_certificates: Vec<(String, String)>,
     /// Readings that distributions are to be tested against.

@@ -2,6 +2,7 @@
 
 use std::collections::HashSet;
 
+use super::codata::MeasuredConstant;
 use super::condition_values::ConditionValues;
 use super::conditions::unit;
 use super::dcc::FromCertificate;
@@ -81,6 +82,7 @@ pub(super) fn read(
             results,
             new,
             certificate,
+            constant: None,
             inputs,
             whole,
         };
@@ -110,6 +112,8 @@ struct InputReader<'a, 'i> {
     new: Option<&'a ReadingColumns<'a>>,
     /// What the input takes from a certificate.
     certificate: Option<FromCertificate>,
+    /// The measured constant that the input is.
+    constant: Option<&'static MeasuredConstant>,
     inputs: &'i mut InputSet,
     /// The unit of a part of a complex quantity, unless it says its own.
     whole: Option<Unit>,
@@ -118,13 +122,14 @@ struct InputReader<'a, 'i> {
 impl<'a> InputReader<'a, '_> {
     fn input(&mut self) {
         let object = self.object;
-        let is_certificate = object
-            .get("distribution")
-            .is_some_and(|member| matches!(&member.value.value, Json::Text(name) if name == "dcc"));
+        let is_certificate = self.is_of("dcc");
         if is_certificate && object.get("components").is_none() {
             self.certificate = self.results.of_certificate(&object);
             let certificate = self.certificate.clone();
             self.certified(self.name, &object, certificate.as_ref());
+        }
+        if self.is_of("codata") && object.get("components").is_none() {
+            self.constant = MeasuredConstant::read(&object);
         }
         let unit = self.unit().unwrap_or_else(|| {
             self.inputs.without_unit.push(self.name.to_owned());
@@ -199,6 +204,7 @@ impl<'a> InputReader<'a, '_> {
             let name = name.as_str();
             let mut reader = InputReader {
                 certificate: None,
+                constant: None,
                 object: part,
                 name,
                 conditions,
@@ -249,6 +255,14 @@ impl<'a> InputReader<'a, '_> {
         self.inputs.pairs.push((first, coefficient, member.value.span.clone()));
     }
 
+    /// Whether the input has this distribution.
+    fn is_of(&self, distribution: &str) -> bool {
+        let member = self.object.get("distribution");
+        member.is_some_and(
+            |member| matches!(&member.value.value, Json::Text(name) if name == distribution),
+        )
+    }
+
     /// The unit as given; without one that of a saved result, or 1. Nothing where the text that the
     /// whole input is could not be read.
     fn unit(&mut self) -> Option<Unit> {
@@ -256,17 +270,13 @@ impl<'a> InputReader<'a, '_> {
         let is_unread = object
             .get("distribution")
             .is_some_and(|made| object.log.has_mistake_at(&made.key_span));
-        let is_result = object.get("distribution").is_some_and(
-            |member| matches!(&member.value.value, Json::Text(name) if name == "result"),
-        );
-        let is_certificate = object
-            .get("distribution")
-            .is_some_and(|member| matches!(&member.value.value, Json::Text(name) if name == "dcc"));
+        let (is_result, is_certificate) = (self.is_of("result"), self.is_of("dcc"));
         match object.get("unit") {
             None if is_unread => None,
             None if is_result => self.results.unit(object),
             None if self.whole.is_some() => self.whole.clone(),
             None if is_certificate => Some(self.certificate.as_ref()?.unit.clone()),
+            None if self.is_of("codata") => Some(self.constant?.own_unit()),
             None => {
                 self.inputs.unstated.push(self.name.to_owned());
                 Some(Unit::one())
@@ -365,6 +375,10 @@ impl<'a> InputReader<'a, '_> {
         let Some(read) = read else { return };
         if kind.name == "dcc" && self.certificate.is_none() {
             return;
+        }
+        if kind.name == "codata" {
+            let Some(constant) = self.constant else { return };
+            self.inputs.constants.push((variable, constant));
         }
         let certificate = self.certificate.clone();
         let (results, conditions) = (self.results, self.conditions);
@@ -846,6 +860,11 @@ impl<'a> InputReader<'a, '_> {
             } else if !names.insert(full.clone()) {
                 component.report(diagnostic(format!("has the name `{name}` of another one")));
             } else if let Some(kind) = shapes::kind(&component) {
+                if kind.name == "codata" {
+                    let reason = "is a measured constant, which is an input of its own".to_owned();
+                    component.report(diagnostic(reason));
+                    continue;
+                }
                 let known: Vec<&str> =
                     keys::COMPONENT.into_iter().chain(kind.fields.iter().copied()).collect();
                 keys::check_names(&component, &known);

@@ -11,6 +11,7 @@ mod case;
 mod catalogue;
 mod certificate;
 mod checked;
+mod codata;
 mod condition_values;
 mod conditions;
 mod constant_inputs;
@@ -79,6 +80,7 @@ pub use case::CaseFile;
 pub use catalogue::{EffectListing, ListedEffect, ListedParameter, catalogue};
 pub use certificate::{CertificateFile, CertifiedModel};
 pub use checked::TextKind;
+pub use codata::{MEASURED, MeasuredConstant};
 pub use costs::{CostFile, read_costs, read_costs_text};
 pub use dcc::{
     CertificateListing, ListedPart, ListedQuantity, listing as certificate_listing,

@@ -11,7 +11,9 @@ use super::results::ResultFiles;
 use super::scopes::ConditionSet;
 use super::shapes::{self, Estimate, Fields};
 use gumption_engine::distribution::{Distribution, Invalid};
-use gumption_engine::model::{FollowingConditions, OfConditions, Output, Quantity, Tolerance};
+use gumption_engine::model::{
+    CapabilityLine, FollowingConditions, GuardRule, OfConditions, Output, Quantity, Tolerance,
+};
 use gumption_text::json::{Json, Member};
 use gumption_text::object::Object;
 use gumption_text::other_names::other_name;
@@ -52,7 +54,7 @@ impl Outputs {
             }
             None => return,
         };
-        for key in ["periodic", "tolerance", "cmc", "cmc_floor"] {
+        for key in ["periodic", "tolerance", "cmc", "cmc_floor", "cmc_line"] {
             if let Some(second) = object.get(key) {
                 let reason = format!(
                     "is complex, and `{key}` is of a real output; give its part, such as \
@@ -138,6 +140,7 @@ pub(super) fn read(
             log.report(&member.value.span, diagnostic);
         }
         let capability = output_limits::capability(&object, &member.key, &unit, set);
+        let capability_line = capability_line(&object, set);
         let decision = Decision::read(&object, &unit, results, set);
         let quantity = Quantity {
             name: member.key.clone(),
@@ -148,6 +151,7 @@ pub(super) fn read(
         let Decision {
             guard_factor,
             non_binary,
+            guard_rule,
             specification,
             agreed,
             tolerance,
@@ -166,14 +170,52 @@ pub(super) fn read(
         let follows = lower.is_some() || upper.is_some() || of_rows.is_some();
         output.following = follows.then(|| Arc::new(following));
         (output.period, output.capability) = (period, capability);
+        output.capability_line = capability_line;
         (output.tolerance, output.prior, output.risk) = (tolerance, prior, risk);
-        (output.guard_factor, output.non_binary) = (guard_factor, non_binary);
+        (output.guard_factor, output.guard_rule) = (guard_factor, guard_rule);
+        output.non_binary = non_binary;
         (output.specification, output.rule_agreed) = (specification, agreed);
         outputs.outputs.push(output);
         outputs.places.push(member.key_span.clone());
         outputs.unit_places.push(unit_place.clone());
     }
     Some(outputs)
+}
+
+/// The line over a condition that is to be fitted to U of the rows.
+fn capability_line(output: &Object<'_>, set: &ConditionSet<'_>) -> Option<CapabilityLine> {
+    let member = output.get("cmc_line")?;
+    let object = Object::new(output.log, "`cmc_line`", &member.value, &member.key_span)?;
+    keys::check(&object, keys::CMC_LINE);
+    let (over, form) = (object.required("over")?, object.required("form")?);
+    let allowed = |key: &str, member: &Member, found: &str, allowed: Vec<String>| {
+        let (key, found) = (key.to_owned(), found.to_owned());
+        object.log.report(&member.value.span, DiagnosticKind::NotOneOf { key, found, allowed });
+    };
+    let name = object.text("over")?;
+    let quantities = &set.conditions.quantities;
+    let condition = quantities.iter().position(|quantity| quantity.name == name);
+    let Some(condition) = condition else {
+        let names = quantities.iter().map(|quantity| quantity.name.clone()).collect();
+        allowed("over", over, name, names);
+        return None;
+    };
+    let found = object.text("form")?;
+    if !["Q", "sum"].contains(&found) {
+        allowed("form", form, found, vec!["Q".to_owned(), "sum".to_owned()]);
+        return None;
+    }
+    let digits = match object.get("digits") {
+        None => 2.0,
+        Some(_) => object.number("digits")?,
+    };
+    if !(1.0..=6.0).contains(&digits) || digits.fract() != 0.0 {
+        let place = object.get("digits").map_or(object.place(), |digits| &digits.value.span);
+        let (key, range) = ("digits".to_owned(), "a whole number from 1 to 6");
+        object.log.report(place, DiagnosticKind::OutOfRange { key, found: digits, range });
+        return None;
+    }
+    Some(CapabilityLine { condition, is_quadratic: found == "Q", digits: digits as u32 })
 }
 
 /// What is to be decided about an output.
@@ -184,6 +226,7 @@ struct Decision {
     risk: Option<f64>,
     guard_factor: Option<f64>,
     non_binary: bool,
+    guard_rule: Option<GuardRule>,
     specification: Option<Arc<str>>,
     agreed: bool,
     lower: Option<OfConditions>,
@@ -193,7 +236,7 @@ struct Decision {
 }
 
 /// Shapes that a prior cannot have: it is about many items.
-const NO_PRIORS: [&str; 4] = ["constant", "readings", "samples", "result"];
+const NO_PRIORS: [&str; 5] = ["constant", "readings", "samples", "result", "codata"];
 
 impl Decision {
     fn read(
@@ -218,7 +261,7 @@ impl Decision {
             let diagnostic = DiagnosticKind::NotProbability { key, found, below };
             object.log.report(&member.value.span, diagnostic);
         }
-        let guard_factor = guard_factor(&object);
+        let (guard_factor, guard_rule) = guard_band(&object);
         let non_binary = is_non_binary(&object);
         let specification = object.text("specification").map(Arc::from);
         let agreed = object.truth("agreed").unwrap_or(false);
@@ -245,6 +288,7 @@ impl Decision {
             risk,
             guard_factor,
             non_binary,
+            guard_rule,
             specification,
             agreed,
             lower,
@@ -254,14 +298,47 @@ impl Decision {
     }
 }
 
-/// The guard band in multiples of U, which is a decision rule of its own beside a wanted risk.
-fn guard_factor(tolerance: &Object<'_>) -> Option<f64> {
-    let member = tolerance.get("guard_band")?;
+/// The guard band, which is a decision rule of its own beside a wanted risk: in multiples of U, or a
+/// rule with a name.
+fn guard_band(tolerance: &Object<'_>) -> (Option<f64>, Option<GuardRule>) {
+    let Some(member) = tolerance.get("guard_band") else { return (None, None) };
     if tolerance.get("risk").is_some() {
         let diagnostic = DiagnosticKind::Exclusive { first: "risk", second: "guard_band" };
         tolerance.log.report(&member.key_span, diagnostic);
+        return (None, None);
+    }
+    match &member.value.value {
+        Json::Text(name) => (None, guard_rule(tolerance, member, name)),
+        _ => (guard_factor(tolerance, member), None),
+    }
+}
+
+/// The rule of a name, which needs both limits.
+fn guard_rule(tolerance: &Object<'_>, member: &Member, name: &str) -> Option<GuardRule> {
+    let names = GuardRule::ALL.map(|rule| format!("\"{}\"", rule.name())).join(", ");
+    let report = |reason: String| {
+        let (key, found) = ("guard_band".to_owned(), name.to_owned());
+        tolerance.log.report(&member.value.span, DiagnosticKind::Value { key, found, reason });
+    };
+    let Some(rule) = GuardRule::named(name) else {
+        report(format!("it is a number r, for a guard band of r U, or one of {names}"));
+        return None;
+    };
+    let is_there = |key: &&str| {
+        tolerance.get(key).is_some_and(|member| !matches!(member.value.value, Json::Null))
+    };
+    if let Some(missing) = ["lower", "upper"].iter().find(|key| !is_there(key)) {
+        report(format!(
+            "the rule is for two limits, and `{missing}` is not there; for one limit write a number r, \
+             or `risk`"
+        ));
         return None;
     }
+    Some(rule)
+}
+
+/// The guard band in multiples of U.
+fn guard_factor(tolerance: &Object<'_>, member: &Member) -> Option<f64> {
     let found = tolerance.number("guard_band")?;
     if !(found > 0.0 && found.is_finite()) {
         let (key, range) = ("guard_band".into(), "above 0, in multiples of U");

@@ -2,6 +2,7 @@
 
 use std::ops::Range;
 
+use super::codata::MeasuredConstant;
 use super::condition_values::ConditionValues;
 use super::coverage_slips;
 use super::dcc::FromCertificate;
@@ -371,6 +372,11 @@ impl<'a> Fields<'a> {
                 let taken = self.certificate?;
                 let shape = taken.distribution(&self.object, self.name, self.unit, self.at)?;
                 self.moved(Ok(shape))
+            }
+            "codata" => {
+                // another name has been reported
+                let constant = MeasuredConstant::named(self.object.text("constant")?)?;
+                self.moved(constant.distribution(&self.object, self.name, self.unit)?)
             }
             "split-normal" => {
                 self.object.required("mode")?;

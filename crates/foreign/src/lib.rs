@@ -10,7 +10,7 @@ mod import;
 mod tests;
 
 pub use comparison::{
-    ComparisonOptions, ComparisonTable, ReadComparison, assigned_by, read_comparison,
+    ComparisonOptions, ComparisonTable, ReadComparison, assigned_by, limit_of, read_comparison,
     read_comparison_text, sigma_by,
 };
 pub use import::{

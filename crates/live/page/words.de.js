@@ -207,6 +207,6 @@ export default {
     gamma: "Gamma", lognormal: "log-normal", beta: "Beta", "log-uniform": "log-gleichverteilt", "poisson-count": "Poisson-Zählung",
     weibull: "Weibull", gumbel: "Gumbel", pareto: "Pareto", "chi-squared": "Chi-Quadrat", binomial: "binomial",
     hypergeometric: "hypergeometrisch",
-    samples: "Stichprobe", "split-normal": "geteilt normal", quantiles: "Quantile", dcc: "DCC", result: "Ergebnisdatei",
+    samples: "Stichprobe", "split-normal": "geteilt normal", quantiles: "Quantile", dcc: "DCC", result: "Ergebnisdatei", codata: "Konstante (CODATA)",
   },
 };

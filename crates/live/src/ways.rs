@@ -77,6 +77,7 @@ fn needed(name: &str) -> &'static [(&'static str, Role)] {
         "quantiles" => &[("probabilities", List), ("values", List)],
         "dcc" => &[("file", Text), ("id", Text)],
         "result" => &[("file", Text), ("output", Text)],
+        "codata" => &[("constant", Text)],
         _ => &[],
     }
 }

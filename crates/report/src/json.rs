@@ -10,6 +10,9 @@ use super::fits::FitSide;
 use super::json_inputs::{InputsSide, RowInputs, varying};
 use super::regions::RegionSide;
 use super::subtotals::Subtotals;
+use super::table::comparison::is_four_to_one;
+use super::table::sweep;
+use gumption_engine::model::{GuardRule, Output};
 use gumption_engine::propagate::DifferenceCause;
 use gumption_engine::propagate::gum::{BudgetLine, CorrelationLine, Dof, Gum};
 use gumption_engine::propagate::monte_carlo::{MonteCarlo, NumericalError};
@@ -17,7 +20,7 @@ use gumption_engine::propagate::{
     Accuracy, CapabilityStatement, Conformity, ConformityLevel, Evaluation, Noiseless,
     OutputEvaluation, RowEvaluation, SecondOrder, validate,
 };
-use gumption_engine::task::{Task, Trials};
+use gumption_engine::task::{Coverage, Task, Trials};
 
 /// The answer as JSON, keys in a fixed order, numbers in the shortest text that reads back as the
 /// same number, `null` for what is infinite or not defined. It ends in a newline.
@@ -51,9 +54,36 @@ struct EvaluationAnswer<'a> {
     #[serde(flatten)]
     results: EvaluationResults<'a>,
     #[serde(serialize_with = "in_order", skip_serializing_if = "Vec::is_empty")]
+    cmc_lines: Vec<(&'a str, LineSide<'a>)>,
+    #[serde(serialize_with = "in_order", skip_serializing_if = "Vec::is_empty")]
     fits: Vec<(&'a str, FitSide<'a>)>,
     warnings: Vec<crate::words::Note<'a>>,
     provenance: Origin<'a>,
+}
+
+/// A line that lies on or above U of all rows.
+#[derive(Serialize)]
+struct LineSide<'a> {
+    over: &'a str,
+    form: &'static str,
+    a: f64,
+    b: f64,
+    /// Over all rows.
+    mean_excess: f64,
+}
+
+impl<'a> LineSide<'a> {
+    /// Those of all outputs that have one.
+    fn all(task: &'a Task, rows: &[RowEvaluation]) -> Vec<(&'a str, Self)> {
+        let one = |(place, output): (usize, &'a Output)| {
+            let (asked, line, mean_excess) = sweep::capability_line(task, rows, place)?;
+            let over = task.model.conditions.get(asked.condition)?.name.as_str();
+            let form = if asked.is_quadratic { "Q" } else { "sum" };
+            let side = Self { over, form, a: line.constant, b: line.slope, mean_excess };
+            Some((output.quantity.name.as_str(), side))
+        };
+        task.model.outputs.iter().enumerate().filter_map(one).collect()
+    }
 }
 
 /// The typed model that was evaluated.
@@ -140,7 +170,10 @@ impl Serialize for Outputs<'_> {
                 exact: noiseless.map(|found| found.as_deref().ok().map(NoiselessSide::of)),
                 why: noiseless.and_then(|found| found.as_ref().err()).map(String::as_str),
                 validation: Validation::of(evaluation, task.settings.statement_tolerance),
-                conformity: evaluation.conformity.as_deref().map(ConformitySide::of),
+                conformity: evaluation
+                    .conformity
+                    .as_deref()
+                    .map(|found| ConformitySide::of(found, task.settings.coverage)),
                 cmc: evaluation.capability.as_deref().map(CmcSide::of),
             };
             (&output.quantity.name, side)
@@ -392,6 +425,11 @@ struct ConformitySide {
     global_risk: Option<Risks>,
     #[serde(skip_serializing_if = "Option::is_none")]
     guard_band: Option<GuardBand>,
+    /// The test uncertainty ratio, and whether it is that of the 4:1 rule.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    tur: Option<f64>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    four_to_one: Option<bool>,
 }
 
 /// Risks of deciding wrongly; `null` for the decision that was not taken.
@@ -399,6 +437,9 @@ struct ConformitySide {
 struct Risks {
     false_acceptance: Option<f64>,
     false_rejection: Option<f64>,
+    /// The share of accepted items that does not conform.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    conditional_false_acceptance: Option<f64>,
 }
 
 /// The guard band for a wanted risk, or in multiples of U; `null` where no value has so small a one.
@@ -409,18 +450,22 @@ struct GuardBand {
     /// In expanded uncertainties.
     #[serde(skip_serializing_if = "Option::is_none")]
     factor: Option<f64>,
+    /// The name of the rule.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    rule: Option<&'static str>,
     width: Option<f64>,
     lower: Option<f64>,
     upper: Option<f64>,
 }
 
 /// What is decided about a tolerance, as answers have it.
-pub(crate) fn decision_value(found: &Conformity) -> serde_json::Value {
-    serde_json::to_value(ConformitySide::of(found)).unwrap_or(serde_json::Value::Null)
+pub(crate) fn decision_value(found: &Conformity, coverage: Coverage) -> serde_json::Value {
+    serde_json::to_value(ConformitySide::of(found, coverage)).unwrap_or(serde_json::Value::Null)
 }
 
 impl ConformitySide {
-    fn of(conformity: &Conformity) -> Self {
+    fn of(conformity: &Conformity, coverage: Coverage) -> Self {
+        let ratio = conformity.test_uncertainty_ratio().filter(|_| coverage.is_about_95());
         let specific = conformity.specific_risk();
         let stated = conformity.states_conformity();
         let acceptance = conformity.acceptance;
@@ -436,18 +481,24 @@ impl ConformitySide {
             specific_risk: Risks {
                 false_acceptance: stated.then_some(specific),
                 false_rejection: (!stated).then_some(specific),
+                conditional_false_acceptance: None,
             },
             global_risk: conformity.global.map(|risks| Risks {
                 false_acceptance: Some(risks.false_acceptance),
                 false_rejection: Some(risks.false_rejection),
+                conditional_false_acceptance: (risks.acceptance > 0.0)
+                    .then(|| risks.conditional_false_acceptance()),
             }),
             guard_band: conformity.is_guarded().then_some(GuardBand {
                 risk: conformity.wanted_risk,
                 factor: conformity.guard_factor,
+                rule: conformity.guard_rule.map(GuardRule::name),
                 width: conformity.guard_band,
                 lower: acceptance.and_then(|limits| limits.lower),
                 upper: acceptance.and_then(|limits| limits.upper),
             }),
+            tur: ratio,
+            four_to_one: ratio.map(is_four_to_one),
         }
     }
 }
@@ -519,6 +570,7 @@ struct Origin<'a> {
 impl<'a> EvaluationAnswer<'a> {
     fn of(report: &EvaluationReport<'a>) -> Self {
         let EvaluationReport { task, evaluation, warnings, provenance } = *report;
+        let cmc_lines = LineSide::all(task, &evaluation.rows);
         let results = match evaluation.rows.first() {
             Some(row) if !task.swept => {
                 EvaluationResults::Single(Figures::of(task, row, evaluation.stopped))
@@ -548,6 +600,7 @@ impl<'a> EvaluationAnswer<'a> {
             equations: &task.statement.equations,
             inputs: InputsSide { task },
             results,
+            cmc_lines,
             fits: task.curves.iter().map(|c| (c.fit.name.as_str(), FitSide::of(c))).collect(),
             warnings: crate::words::notes(warnings),
             provenance: Origin {

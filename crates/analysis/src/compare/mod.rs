@@ -1,9 +1,11 @@
 //! Compares results for one quantity: in pairs ([`pair`]), and of many laboratories with a
 //! reference value ([`laboratories`]; [`consensus`] if they are inconsistent) or with an assigned value
-//! ([`proficiency`], from [`robust`] estimates).
+//! ([`proficiency`], from [`robust`] estimates); and the study of a gauge by parts and operators
+//! ([`gauge`]).
 
 pub mod consensus;
 mod definite;
+pub mod gauge;
 pub mod laboratories;
 pub mod pair;
 pub mod proficiency;
@@ -11,6 +13,7 @@ pub mod robust;
 mod subset;
 
 pub use consensus::{ConsensusValue, Estimator, HartungKnapp};
+pub use gauge::{GaugeStudy, Interaction, StudyReading};
 pub use laboratories::{Comparison, DegreeOfEquivalence, Impossible, Laboratory};
 pub use pair::{ComparedPair, ResultPair, StatedResult};
 pub use proficiency::{AssignedBy, Participant, ProficiencyTest, SigmaBy, Signal};

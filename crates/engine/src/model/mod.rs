@@ -4,6 +4,7 @@
 //! formulas in a file: quantities on both sides and a [`Program`] between them.
 
 pub mod formula;
+mod guard_rule;
 mod interpolation;
 mod of_conditions;
 mod program;
@@ -12,6 +13,7 @@ mod schedule;
 mod slopes;
 mod trace;
 pub mod typed;
+pub use guard_rule::GuardRule;
 pub use interpolation::{Interpolation, InterpolationMethod, TableFault};
 pub use of_conditions::{FollowingConditions, OfConditions};
 pub use program::Node;
@@ -72,12 +74,16 @@ pub struct Output {
     pub guard_factor: Option<f64>,
     /// Whether the decision has four levels rather than two (ILAC-G8:09/2019, 4.2.3).
     pub non_binary: bool,
+    /// The rule of a name that gives the width of the guard band; it needs two limits.
+    pub guard_rule: Option<GuardRule>,
     /// What the tolerance is that of, in words: `DIN EN 60751 class A`.
     pub specification: Option<Arc<str>>,
     /// Whether the decision rule was agreed with the customer (ISO/IEC 17025, 7.1.3).
     pub rule_agreed: bool,
     /// The smallest expanded uncertainty that the laboratory may state.
     pub capability: Option<Capability>,
+    /// The line over a condition that is to lie on or above U of all rows.
+    pub capability_line: Option<CapabilityLine>,
     /// Limits and capability that are others in every row of conditions. Where there are such,
     /// `tolerance` and `capability` are those of the first row.
     pub following: Option<Arc<FollowingConditions>>,
@@ -95,9 +101,11 @@ impl Output {
             risk,
             guard_factor: None,
             non_binary: false,
+            guard_rule: None,
             specification: None,
             rule_agreed: false,
             capability,
+            capability_line: None,
             following: None,
         }
     }
@@ -130,6 +138,17 @@ pub struct Capability {
     pub absolute: f64,
     /// Whether a smaller expanded uncertainty is raised to it.
     pub floor: bool,
+}
+
+/// A line over a condition, to be fitted to the expanded uncertainties of all rows.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct CapabilityLine {
+    /// The place of the condition.
+    pub condition: usize,
+    /// Whether the terms add in squares, Q\[a; bL\], and not as a + b L.
+    pub is_quadratic: bool,
+    /// Significant digits of both numbers.
+    pub digits: u32,
 }
 
 impl Capability {

@@ -18,7 +18,7 @@ use super::gum::Gum;
 use super::monte_carlo::MonteCarlo;
 use super::statement::{Stated, located};
 use crate::distribution::Distribution;
-use crate::model::{Output, Tolerance};
+use crate::model::{GuardRule, Output, Tolerance};
 use crate::number::elementary;
 use crate::task::{Settings, Trials};
 
@@ -42,6 +42,10 @@ pub struct Conformity {
     /// The width of the guard band in expanded uncertainties, where that is the rule (ILAC-G8:09/2019,
     /// 4.2.2).
     pub guard_factor: Option<f64>,
+    /// The named rule of the guard band, where that is the rule.
+    pub guard_rule: Option<GuardRule>,
+    /// The expanded uncertainty that is stated beside the estimate; `None` where there is none.
+    pub expanded_uncertainty: Option<f64>,
     /// The acceptance limits: the tolerance limits moved inwards by the guard band. `None` if no
     /// value has so small a risk, or the guard band is more than half of the tolerance.
     pub acceptance: Option<Tolerance>,
@@ -62,7 +66,16 @@ pub struct Conformity {
 impl Conformity {
     /// Whether the acceptance limits are not the tolerance's (JCGM 106, 8.3).
     pub fn is_guarded(&self) -> bool {
-        self.wanted_risk.is_some() || self.guard_factor.is_some()
+        self.wanted_risk.is_some() || self.guard_factor.is_some() || self.guard_rule.is_some()
+    }
+
+    /// The test uncertainty ratio (ANSI/NCSL Z540.3, 3.11): the tolerance over twice the expanded
+    /// uncertainty, which has to be that of approximately 95 %. `None` with one limit alone, or without an
+    /// uncertainty.
+    pub fn test_uncertainty_ratio(&self) -> Option<f64> {
+        let (lower, upper) = self.tolerance.lower.zip(self.tolerance.upper)?;
+        let expanded = self.expanded_uncertainty.filter(|expanded| *expanded > 0.0)?;
+        Some((upper - lower) / (2.0 * expanded))
     }
 
     /// Whether the statement is that the value conforms, conditionally or not.
@@ -105,8 +118,9 @@ impl Conformity {
         };
         let inspection = output.prior.as_deref().zip(law);
         let inspection = inspection.map(|(prior, law)| Inspection::new(prior, law, limits));
+        let expanded = stated.map(|stated| stated.expanded_uncertainty);
         let guard_band = match (output.risk, u, &inspection) {
-            (None, ..) => multiple(output, stated.map(|stated| stated.expanded_uncertainty)),
+            (None, ..) => of_expanded(output, limits, expanded),
             (Some(_), None, _) => None,
             (Some(risk), Some(_), Some(inspection)) => inspection.guard_band(risk),
             (Some(risk), Some(u), None) => match linear {
@@ -145,6 +159,8 @@ impl Conformity {
             numerical_standard_error,
             wanted_risk: output.risk,
             guard_factor: output.guard_factor,
+            guard_rule: output.guard_rule,
+            expanded_uncertainty: expanded,
             acceptance,
             guard_band,
             conforms: accepted.is_some_and(|accepted| accepted.holds(estimate)),
@@ -222,7 +238,7 @@ impl Conformity {
         let inspection = output.prior.as_deref();
         let inspection = inspection.map(|prior| Inspection::new(prior, errors, limits));
         let guard_band = match (output.risk, &inspection) {
-            (None, _) => multiple(output, expanded),
+            (None, _) => of_expanded(output, limits, expanded),
             (Some(risk), Some(inspection)) => inspection.guard_band(risk),
             (Some(risk), None) => law.guard_band(risk, limits),
         };
@@ -241,6 +257,8 @@ impl Conformity {
             numerical_standard_error: 0.0,
             wanted_risk: output.risk,
             guard_factor: output.guard_factor,
+            guard_rule: output.guard_rule,
+            expanded_uncertainty: expanded,
             acceptance,
             guard_band,
             conforms: accepted.is_some_and(|accepted| accepted.holds(estimate)),
@@ -251,10 +269,14 @@ impl Conformity {
     }
 }
 
-/// The guard band without a wanted risk: a multiple of the expanded uncertainty, or none. `None` where
-/// there is no expanded uncertainty.
-fn multiple(output: &Output, expanded: Option<f64>) -> Option<f64> {
-    output.guard_factor.map_or(Some(0.0), |factor| Some(factor * expanded?))
+/// The guard band without a wanted risk: a multiple of the expanded uncertainty, that of a named rule, or
+/// none. `None` where there is no expanded uncertainty, or the rule accepts no value.
+fn of_expanded(output: &Output, limits: [f64; 2], expanded: Option<f64>) -> Option<f64> {
+    match (output.guard_rule, output.guard_factor) {
+        (Some(rule), _) => rule.width(0.5 * (limits[1] - limits[0]), expanded?),
+        (None, Some(factor)) => Some(factor * expanded?),
+        (None, None) => Some(0.0),
+    }
 }
 
 /// The limits with which a decision is made: those of an output that comes round on the branch of what

@@ -1,9 +1,9 @@
 //! Where else in a file a key stands that was written at the wrong place.
 
 use super::{
-    CERTIFICATE, CERTIFICATE_FUNCTION, CERTIFICATE_ROW, CHANNEL, COMPONENT, CONDITION, DEVICE,
-    EFFECT, FIT, FREQUENCY, INPUT, Key, MODEL, MONTE_CARLO, OBSERVATIONS, OBSERVED, OUTPUT, PARTY,
-    QUANTITY, RECIPE, RECIPE_ROW, RECORDING, SEARCH, SHAPES, TOLERANCE,
+    CERTIFICATE, CERTIFICATE_FUNCTION, CERTIFICATE_ROW, CHANNEL, CMC_LINE, COMPONENT, CONDITION,
+    DEVICE, EFFECT, FIT, FREQUENCY, INPUT, Key, MODEL, MONTE_CARLO, OBSERVATIONS, OBSERVED, OUTPUT,
+    PARTY, QUANTITY, RECIPE, RECIPE_ROW, RECORDING, SEARCH, SHAPES, TOLERANCE,
 };
 
 /// An object of a file, as messages call it, and its keys.
@@ -15,6 +15,7 @@ const OF_MODELS: &[Home] = &[
     ("`monte_carlo`", MONTE_CARLO),
     ("an output", OUTPUT),
     ("`tolerance`", TOLERANCE),
+    ("`cmc_line`", CMC_LINE),
     ("a condition", CONDITION),
     ("a fit", FIT),
     ("an effect", EFFECT),

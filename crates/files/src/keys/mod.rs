@@ -27,8 +27,8 @@ pub(crate) use check::{check, check_names};
 pub(crate) use costs::{COST, COSTS, COSTS_KEY, OFFER};
 pub(crate) use fits::{COMPLEX_ORDINATES, COMPLEX_POINTS, COVARIANCE_FILE, FIT, POINTS};
 pub(crate) use model_file::{
-    CONDITION, CORRELATION_MATRIX, MODEL, MONTE_CARLO, OUTPUT, REGION, TABLE_OF_CONDITIONS,
-    TOLERANCE,
+    CMC_LINE, CONDITION, CORRELATION_MATRIX, MODEL, MONTE_CARLO, OUTPUT, REGION,
+    TABLE_OF_CONDITIONS, TOLERANCE,
 };
 use node::{With, object, reference};
 pub(crate) use recipe::{

@@ -3,6 +3,7 @@
 use super::node::{With, object, reference, texts};
 use super::values::whole;
 use super::{Key, closed, described, keys, named, referenced, text_of};
+use gumption_engine::model::GuardRule;
 use serde_json::Value;
 
 pub(super) fn definitions() -> Vec<(String, Value)> {
@@ -10,6 +11,7 @@ pub(super) fn definitions() -> Vec<(String, Value)> {
         ("model", root()),
         ("output", output()),
         ("tolerance", tolerance()),
+        ("cmc-line", cmc_line()),
         ("conditions", conditions()),
         ("condition", condition()),
         ("table-of-conditions", table_of_conditions()),
@@ -171,7 +173,24 @@ pub(crate) const OUTPUT: &[Key] = keys![
     "tolerance" => reference("tolerance"),
     "cmc" => referenced("width", "The laboratory's capability: its smallest expanded uncertainty."),
     "cmc_floor" => described("boolean", "Raise a smaller expanded uncertainty to `cmc`."),
+    "cmc_line" => reference("cmc-line"),
 ];
+
+/// Keys of `cmc_line`.
+pub(crate) const CMC_LINE: &[Key] = keys![
+    "over" => referenced("name", "The condition L."),
+    "form" => described("string", "`Q` for Q[a; bL] = sqrt(a^2 + (b L)^2), `sum` for a + b L.")
+                .with("enum", texts(["Q", "sum"])),
+    "digits" => whole("Significant digits of a and b; 2.", 1, 6),
+];
+
+fn cmc_line() -> Value {
+    closed(
+        "The smallest line over a condition that lies on or above U of all rows, for a CMC.",
+        CMC_LINE,
+        &["over", "form"],
+    )
+}
 
 fn output() -> Value {
     closed("A quantity to report.", OUTPUT, &[])
@@ -195,16 +214,20 @@ pub(crate) const TOLERANCE: &[Key] = keys![
     "risk" => described("number", "The wanted risk of false acceptance, for guard bands.")
                 .with("exclusiveMinimum", 0)
                 .with("exclusiveMaximum", 0.5),
-    "guard_band" => described(
-        "number",
-        "The width of the guard band in multiples of the expanded uncertainty U (ILAC-G8: 1).",
-    )
-    .with("exclusiveMinimum", 0),
+    "guard_band" => guard_band(),
     "statement" => described("string", "`binary`, or with a guard band `non-binary`: pass, conditional pass, conditional fail, fail (ILAC-G8, 4.2.3).")
         .with("enum", texts(["binary", "non-binary"])),
     "specification" => described("string", "The specification that states the tolerance, for certificates."),
     "agreed" => described("boolean", "Whether the decision rule was agreed with the customer."),
 ];
+
+fn guard_band() -> Value {
+    let about = "The width of the guard band in multiples of the expanded uncertainty U (ILAC-G8: 1), or \
+                 the name of a rule.";
+    let factor = object([("type", Value::from("number")), ("exclusiveMinimum", Value::from(0))]);
+    let rule = object([("enum", texts(GuardRule::ALL.map(GuardRule::name)))]);
+    object([("description", Value::from(about)), ("anyOf", Value::from(vec![factor, rule]))])
+}
 
 fn limit(about: &str) -> Value {
     let formula = object([("type", Value::from("string"))]);

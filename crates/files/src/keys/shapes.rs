@@ -1,5 +1,6 @@
 //! The distributions, with the keys that each of them has.
 
+use super::super::codata::MEASURED;
 use super::node::{With, object, reference, texts};
 use super::{Key, closed, closed_of, described, keys, referenced, text_of};
 use serde_json::Value;
@@ -34,7 +35,7 @@ enum Rule {
 }
 
 /// The distributions in the order of JCGM 101, Table 1, then the others.
-pub(crate) static SHAPES: [FileShape; 26] = [
+pub(crate) static SHAPES: [FileShape; 27] = [
     FileShape {
         name: "constant",
         aliases: &[],
@@ -290,6 +291,14 @@ pub(crate) static SHAPES: [FileShape; 26] = [
         fields: &["file", "output"],
         rule: Rule::All(&["file", "output"]),
     },
+    FileShape {
+        name: "codata",
+        aliases: &[],
+        about: "A measured fundamental constant (CODATA 2022), with its correlations to the others of the \
+                file; `gumption help functions` lists them.",
+        fields: &["constant"],
+        rule: Rule::All(&["constant"]),
+    },
 ];
 
 /// What stands at a distribution's own key.
@@ -454,6 +463,10 @@ fn field(shape: &str, key: &str) -> Value {
              quantity of that name beside it, or its reference or nominal value.",
         ),
         (_, "output") => text_of("Name of the output in the saved result."),
+        (_, "constant") => described("string", "Name or symbol of the constant.").with(
+            "enum",
+            texts(MEASURED.iter().flat_map(|constant| [constant.name, constant.symbol])),
+        ),
         (_, key) => text_of(key),
     }
 }

@@ -12,6 +12,7 @@ mod party;
 mod proficiency;
 mod sheet;
 mod stated;
+mod study;
 #[cfg(test)]
 mod tests;
 
@@ -21,7 +22,7 @@ use std::path::Path;
 use super::answer;
 use check::TableKind;
 use columns::Columns;
-use gumption_analysis::compare::{Laboratory, Participant, ResultPair, StatedResult};
+use gumption_analysis::compare::{Laboratory, Participant, ResultPair, StatedResult, StudyReading};
 use gumption_engine::fact;
 use gumption_engine::fact::{Argument, Fact};
 use gumption_engine::task::Warning;
@@ -33,6 +34,7 @@ use headings::Role;
 use numbers::{Number, Numbers};
 pub use proficiency::{assigned_by, sigma_by};
 use sheet::Content;
+pub use study::limit_of;
 
 /// A table that was read and found right.
 #[derive(Clone, Debug, PartialEq)]
@@ -48,6 +50,8 @@ pub enum ComparisonTable {
     },
     /// The participants of a proficiency test, in order: columns `label`, `x` and perhaps `U`, `k`.
     Proficiency(Vec<Participant>),
+    /// The readings of a gauge study, in order: columns `part`, `operator`, `value`.
+    Gauge(Vec<StudyReading>),
 }
 
 /// A table, and what is worth knowing of how it was read.
@@ -73,6 +77,8 @@ pub struct ComparisonOptions<'a> {
     pub sheet: Option<&'a str>,
     /// Whether the results are those of a proficiency test.
     pub is_proficiency_test: bool,
+    /// Whether the table is that of a gauge study.
+    pub is_gauge_study: bool,
 }
 
 /// At most so many laboratories: their covariance matrix is decomposed again and again.
@@ -133,6 +139,10 @@ fn read(
     let mut warnings: Vec<Warning> = said.into_iter().collect();
     let table = TextTable::parse(&log, &source).and_then(|cells| {
         let numbers = Numbers::new(&log, &cells, content.sheet.as_ref());
+        if options.is_gauge_study {
+            let (readings, unit) = study::read(&numbers, &mut warnings)?;
+            return Some((ComparisonTable::Gauge(readings), vec![unit]));
+        }
         let answer = match options.against {
             Some(path) => Some(answer::read(&log, path)?),
             None => None,

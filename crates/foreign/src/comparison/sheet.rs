@@ -5,6 +5,7 @@ use std::path::Path;
 
 use super::ComparisonOptions;
 use super::headings::{self, HeadingMeaning, Role};
+use super::study;
 use gumption_engine::fact::Fact;
 use gumption_text::workbook::choice::{self, Wanted};
 use gumption_text::workbook::{Book, Layout};
@@ -58,6 +59,9 @@ pub(super) fn results(
     options: ComparisonOptions<'_>,
 ) -> Result<Content, DiagnosticKind> {
     let holds = |header: &[String]| {
+        if options.is_gauge_study {
+            return study::is_header(header);
+        }
         let of = |role: fn(&Role) -> bool| {
             header
                 .iter()

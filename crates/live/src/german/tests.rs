@@ -168,6 +168,12 @@ fn rare_sentences_are_german_too() {
     let two = || json!({"a": normal(1.0, 0.1), "b": normal(2.0, 0.1)});
     let rectangular =
         json!({"unit": "1", "distribution": "rectangular", "mean": 1, "half_width": 0.1});
+    let named_rule = |rule: &str, half: f64| {
+        let prior = json!({"distribution": "normal", "mean": 3, "std": 0.2});
+        let [lower, upper] = [3.0 - half, 3.0 + half];
+        let tolerance = json!({"lower": lower, "upper": upper, "guard_band": rule, "prior": prior});
+        model(two(), "a + b", json!({"unit": "1", "tolerance": tolerance}), json!({}))
+    };
     let files = [
         model(
             two(),
@@ -255,6 +261,10 @@ fn rare_sentences_are_german_too() {
             json!({"unit": "1", "tolerance": {"lower": 2.5, "upper": 3.2, "risk": 0.05}}),
             json!({}),
         ),
+        named_rule("rss", 0.5),
+        named_rule("rss", 0.1),
+        named_rule("rp-10", 0.1),
+        named_rule("dobbert", 6.0),
         model(two(), "a + b", one.clone(), json!({"check_units": false})),
         model(
             json!({"a": {"distribution": "normal", "mean": 1, "std": 0.1, "dof": 4}}),

@@ -194,23 +194,21 @@ fn decision(found: &Conformity, words: &Words) -> &'static str {
 
 fn rule(row: &StatedRow<'_>, found: &Conformity, of: SentenceLanguage) -> String {
     let words = of.words();
-    if let (Some(factor), Some(width)) = (found.guard_factor, found.guard_band) {
-        let place = position(width, GUARD_DIGITS);
-        let guard = of.in_marks(&in_unit(&to(width, place), &with_symbols(&row.quantity.unit)));
-        let (said, accepted) = match &found.acceptance {
-            Some(to) => (words.multiple, of.in_marks(&limits(row, to, place, words))),
-            None => (words.too_wide, String::new()),
+    if let Some((band, clause)) = band(row, found, of) {
+        let unit = with_symbols(&row.quantity.unit);
+        let place = found.guard_band.and_then(|width| position(width, GUARD_DIGITS));
+        let guard = found.guard_band.map(|width| of.in_marks(&in_unit(&to(width, place), &unit)));
+        let (said, accepted) = match (&found.acceptance, &guard) {
+            (Some(to), _) => (words.multiple, of.in_marks(&limits(row, to, place, words))),
+            (None, Some(_)) => (words.too_wide, String::new()),
+            (None, None) => (words.no_band, String::new()),
         };
-        let coverage = row.asked.task.settings.coverage;
-        let clause = words.of_ilac_g8[usize::from(!coverage.is_about_95())];
         let clause = match found.level {
             Some(_) => clause.replace("4.2.2", "4.2.3"),
-            None => clause.to_owned(),
+            None => clause,
         };
-        let clause = clause.replace("{k}", &of.in_marks(&row.factor().text));
-        let said = said.replace("{factor}", &of.in_marks(&exact(factor)));
-        let said = said.replace("{clause}", &clause);
-        return said.replace("{guard}", &guard).replace("{limits}", &accepted);
+        let said = said.replace("{band}", &band).replace("{clause}", &clause);
+        return said.replace("{guard}", &guard.unwrap_or_default()).replace("{limits}", &accepted);
     }
     let Some(risk) = found.wanted_risk else { return words.simple.to_owned() };
     let kind = words.kinds[usize::from(found.global.is_some())];
@@ -225,6 +223,21 @@ fn rule(row: &StatedRow<'_>, found: &Conformity, of: SentenceLanguage) -> String
     let guard = of.in_marks(&in_unit(&to(width, place), &with_symbols(&row.quantity.unit)));
     let accepted = of.in_marks(&limits(row, acceptance, place, words));
     filled(words.guarded).replace("{guard}", &guard).replace("{limits}", &accepted)
+}
+
+/// The guard band of a rule that is stated by U, as a formula, and where the rule comes from.
+fn band(row: &StatedRow<'_>, found: &Conformity, of: SentenceLanguage) -> Option<(String, String)> {
+    let words = of.words();
+    let otherwise = usize::from(!row.asked.task.settings.coverage.is_about_95());
+    let factor = of.in_marks(&row.factor().text);
+    if let Some(rule) = found.guard_rule {
+        let clause = words.of_rule[otherwise].replace("{rule}", rule.title());
+        return Some((of.in_marks(rule.formula()), clause.replace("{k}", &factor)));
+    }
+    // without U there is no multiple of it
+    let multiple = found.guard_factor.filter(|_| found.guard_band.is_some())?;
+    let clause = words.of_ilac_g8[otherwise].replace("{k}", &factor);
+    Some((format!("{} U", of.in_marks(&exact(multiple))), clause))
 }
 
 /// Limits with their unit; rounded to a position if it is given.

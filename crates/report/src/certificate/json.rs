@@ -175,7 +175,10 @@ fn one(report: &CertificateReport<'_>, row: &StatedRow<'_>) -> Value {
             ]),
         ),
     ];
-    members.extend(row.conformity().map(|found| ("conformity", decision_value(&found))));
+    members.extend(
+        row.conformity()
+            .map(|found| ("conformity", decision_value(&found, row.asked.task.settings.coverage))),
+    );
     object(members)
 }
 

@@ -1,6 +1,6 @@
 //! One line for each comparison, in full precision, for spreadsheets.
 
-use super::{Compare, proficiency};
+use super::{Compare, gauge, proficiency};
 use crate::csv::{number, of_records, text};
 
 /// The rows as comma-separated values; for laboratories those of the degrees of equivalence.
@@ -57,6 +57,7 @@ pub fn csv(compare: &Compare) -> String {
             }
         }
         Compare::Proficiency { test, unit } => records = proficiency::records(test, unit),
+        Compare::Gauge { study, unit } => records = gauge::records(study, unit),
     }
     of_records(|writer| records.iter().try_for_each(|record| writer.write_record(record)))
 }

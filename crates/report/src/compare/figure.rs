@@ -50,6 +50,7 @@ pub(super) fn draw(compare: &Compare) -> Option<Drawing> {
             Some(strip(&bars, band, &of_unit("result", unit), caption))
         }
         Compare::Proficiency { test, .. } => proficiency::figure(test),
+        Compare::Gauge { .. } => None,
     }
 }
 

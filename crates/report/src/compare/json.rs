@@ -1,6 +1,6 @@
 //! The answer for programs.
 
-use super::{Compare, proficiency};
+use super::{Compare, gauge, proficiency};
 use crate::answer::{list, object, pretty};
 use gumption_analysis::compare::laboratories::ReferenceValue;
 use gumption_analysis::compare::{
@@ -25,6 +25,7 @@ pub fn json(compare: &Compare, said: &[Warning]) -> String {
             pretty(&object(entries))
         }
         Compare::Proficiency { test, unit } => proficiency::json(test, unit, said),
+        Compare::Gauge { study, unit } => gauge::json(study, unit, said),
     }
 }
 

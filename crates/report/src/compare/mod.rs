@@ -2,6 +2,7 @@
 
 mod csv;
 mod figure;
+mod gauge;
 mod json;
 mod page;
 mod proficiency;
@@ -12,7 +13,9 @@ pub use csv::csv;
 pub use json::json;
 pub use page::{html, markdown, table};
 
-use gumption_analysis::compare::{ComparedPair, Comparison, ProficiencyTest, ResultPair};
+use gumption_analysis::compare::{
+    ComparedPair, Comparison, GaugeStudy, ProficiencyTest, ResultPair,
+};
 
 /// A comparison.
 #[derive(Clone, Debug)]
@@ -42,16 +45,24 @@ pub enum Compare {
         /// The unit of all results; empty if none is stated.
         unit: String,
     },
+    /// Repeatability and reproducibility of a gauge.
+    Gauge {
+        /// The study.
+        study: GaugeStudy,
+        /// The unit of all readings; empty if none is stated.
+        unit: String,
+    },
 }
 
 impl Compare {
     /// Whether everything is compatible: all normalized errors at most 1, laboratories consistent,
-    /// and no action signal.
+    /// no action signal, and a gauge that is not refused.
     pub fn is_compatible(&self) -> bool {
         match self {
             Self::Pairs { compared, .. } => compared.iter().all(ComparedPair::is_compatible),
             Self::Laboratories { comparison, .. } => comparison.all.is_consistent(),
             Self::Proficiency { test, .. } => test.is_satisfied(),
+            Self::Gauge { study, .. } => study.is_acceptable(),
         }
     }
 }

@@ -2,7 +2,7 @@
 
 use std::borrow::Cow;
 
-use super::{Compare, figure, proficiency, sheets, words};
+use super::{Compare, figure, gauge, proficiency, sheets, words};
 use crate::document::{self, Block, Document, sentence};
 use crate::printed::on_terminal;
 use crate::sheet::Sheet;
@@ -16,13 +16,15 @@ fn sheet(compare: &Compare) -> Sheet {
         }
         Compare::Laboratories { comparison, unit } => sheets::laboratories(comparison, unit),
         Compare::Proficiency { test, unit } => proficiency::sheet(test, unit),
+        Compare::Gauge { study, unit } => gauge::sheet(study, unit),
     }
 }
 
-/// The values of every estimator, for laboratories.
+/// The values of every estimator, for laboratories; the mean squares of a gauge.
 fn estimators(compare: &Compare) -> Option<(Sheet, String)> {
     match compare {
         Compare::Pairs { .. } | Compare::Proficiency { .. } => None,
+        Compare::Gauge { study, unit } => Some((gauge::squares(study), gauge::inputs(study, unit))),
         Compare::Laboratories { comparison, .. } => {
             Some((sheets::estimators(comparison), words::recommended(comparison)))
         }
@@ -37,6 +39,7 @@ fn notes(compare: &Compare) -> Vec<Cow<'static, str>> {
             vec![words::laboratories(comparison).into(), words::ESTIMATORS.into()]
         }
         Compare::Proficiency { test, .. } => vec![proficiency::explained(test).into()],
+        Compare::Gauge { study, .. } => vec![gauge::explained(study).into()],
     }
 }
 

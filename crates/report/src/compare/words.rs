@@ -1,7 +1,7 @@
 //! The sentences of a comparison.
 
 use super::sheets::{in_unit, probability};
-use super::{Compare, proficiency};
+use super::{Compare, gauge, proficiency};
 use crate::document::sentence;
 use crate::number::{degrees_of_freedom, rounded, significant, with_uncertainty};
 use crate::plain;
@@ -83,6 +83,7 @@ pub(super) fn title(compare: &Compare) -> String {
         Compare::Pairs { .. } => "Normalized errors".to_owned(),
         Compare::Laboratories { .. } => "Comparison of laboratories".to_owned(),
         Compare::Proficiency { .. } => "Proficiency test".to_owned(),
+        Compare::Gauge { .. } => "Gauge repeatability and reproducibility".to_owned(),
     }
 }
 
@@ -108,6 +109,7 @@ pub(super) fn verdict(compare: &Compare) -> Vec<String> {
         }
         Compare::Laboratories { comparison, unit } => of_laboratories(comparison, unit),
         Compare::Proficiency { test, unit } => proficiency::verdict(test, unit),
+        Compare::Gauge { study, unit } => gauge::verdict(study, unit),
     }
 }
 

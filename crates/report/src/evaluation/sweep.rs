@@ -34,7 +34,9 @@ pub(super) fn sections(document: &mut Document, report: &EvaluationReport<'_>, s
         }
         let settings = &evaluation.settings;
         let taken = sweep::taken(settings, &evaluation.rows, output);
-        for said in taken.into_iter().chain(sweep::conformity(task, &evaluation.rows, output)) {
+        let line = sweep::capability_line_text(task, &evaluation.rows, output);
+        let decided = sweep::conformity(task, &evaluation.rows, output);
+        for said in taken.into_iter().chain(decided).chain(line) {
             document.text(said);
         }
         document.picture(|| figures::sweep(task, rows, (output, settings)), || None);

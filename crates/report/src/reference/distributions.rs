@@ -49,6 +49,7 @@ pub(super) fn uncertainty(name: &str) -> Option<(&'static str, &'static str)> {
         "quantiles" => ("the standard deviation of the interpolated quantiles", ""),
         "dcc" => ("that of the certificate: U/k", "k"),
         "result" => ("that of the saved result", ""),
+        "codata" => ("that of CODATA 2022", ""),
         _ => return None,
     })
 }

@@ -1,6 +1,7 @@
 //! The operators, functions and constants of formulas.
 
 use gumption_engine::model::formula;
+use gumption_files::{MEASURED, MeasuredConstant};
 
 use crate::document::Document;
 use crate::sheet::Sheet;
@@ -87,6 +88,21 @@ pub(super) fn document() -> Document {
     sheet.text("value", constants.iter().map(|of| format!("{:e}", of.value)));
     sheet.text("unit", constants.iter().map(|of| of.dimension.usual_unit()));
     sheet.text("is", constants.iter().map(|of| of.about.to_owned()));
+    document.table(sheet);
+    document.section("Measured constants");
+    document.text(
+        "Inputs with the values, uncertainties and correlations of CODATA 2022 \
+         (physics.nist.gov/constants): `\"m_e\": {\"distribution\": \"codata\", \"constant\": \"electron \
+         mass\"}`. The correlation coefficients of all that a file has come by themselves; \
+         `correlations` states others. Without `unit` it is that of the table.",
+    );
+    let mut sheet = Sheet::default();
+    sheet.text("constant", MEASURED.iter().map(|of| format!("`{}`", of.name)));
+    sheet.text("or", MEASURED.iter().map(|of| format!("`{}`", of.symbol)));
+    sheet.text("value", MEASURED.iter().map(|of| format!("{:e}", of.value)));
+    let u = |of: &MeasuredConstant| of.relative_uncertainty() * of.value;
+    sheet.text("u", MEASURED.iter().map(|of| format!("{:.1e}", u(of))));
+    sheet.text("unit", MEASURED.iter().map(|of| of.unit.to_owned()));
     document.table(sheet);
     document
 }

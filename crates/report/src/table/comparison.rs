@@ -9,7 +9,7 @@ use crate::number::{
 use crate::printed::grouped;
 use crate::sheet::Sheet;
 use crate::words::{Language, note};
-use gumption_engine::model::{Output, Quantity, Tolerance};
+use gumption_engine::model::{GuardRule, Output, Quantity, Tolerance};
 use gumption_engine::propagate::gum::{Dof, Gum};
 use gumption_engine::propagate::monte_carlo::{Adaptive, FIRST_STAGE, MonteCarlo};
 use gumption_engine::propagate::validate::Validation;
@@ -150,7 +150,8 @@ pub(crate) fn conformity(
     // an uncertainty that is stated in place of the evaluated one has no trials
     let trials = trials.filter(|_| found.stated_uncertainty.is_none());
     let rule = rule_text(output, found, coverage);
-    [conformity_text(output, found, trials), rule, risks_text(found, trials)]
+    let risks = risks_text(found, trials) + &ratio_text(found, coverage).unwrap_or_default();
+    [conformity_text(output, found, trials), rule, risks]
 }
 
 /// The probability of conformity with the output's tolerance.
@@ -215,6 +216,9 @@ pub(crate) fn decision(found: &Conformity) -> &'static str {
 
 /// The rule by which it is decided.
 pub(super) fn rule(found: &Conformity, coverage: Coverage) -> String {
+    if let Some(rule) = found.guard_rule {
+        return format!("guarded acceptance ({})", named_text(rule, coverage));
+    }
     match (found.wanted_risk, found.guard_factor) {
         (Some(risk), _) => {
             format!("guarded acceptance (JCGM 106, 8.3) for {}", risk_text(found, risk))
@@ -234,6 +238,31 @@ fn multiple_text(factor: f64, coverage: Coverage) -> String {
     format!("guard band of {factor} U, with U for {of_u}; ILAC-G8 has it for approximately 95 %")
 }
 
+/// A guard band with a name, which is for U of approximately 95 %.
+fn named_text(rule: GuardRule, coverage: Coverage) -> String {
+    let (title, band) = (rule.title(), rule.formula());
+    let text = format!("{title}, guard band of {band}, T half of the tolerance");
+    if coverage.is_about_95() {
+        return text;
+    }
+    format!(
+        "{text}, with U for {}; the rule has it for approximately 95 %",
+        coverage_text(coverage)
+    )
+}
+
+/// The test uncertainty ratio, where U is that of approximately 95 %.
+fn ratio_text(found: &Conformity, coverage: Coverage) -> Option<String> {
+    let ratio = found.test_uncertainty_ratio().filter(|_| coverage.is_about_95())?;
+    let side = if is_four_to_one(ratio) { "at least" } else { "below" };
+    Some(format!(" Test uncertainty ratio TUR = {}, {side} 4:1.", significant(ratio, 3)))
+}
+
+/// Whether a test uncertainty ratio is that of the 4:1 rule, but for the rounding of binary fractions.
+pub(crate) fn is_four_to_one(ratio: f64) -> bool {
+    ratio >= 4.0 * (1.0 - 1e-12)
+}
+
 /// A risk that is wanted at most.
 fn risk_text(found: &Conformity, risk: f64) -> String {
     let kind = if found.global.is_some() { "global" } else { "specific" };
@@ -243,9 +272,18 @@ fn risk_text(found: &Conformity, risk: f64) -> String {
 /// The decision rule and the decision.
 fn rule_text(output: &Quantity, found: &Conformity, coverage: Coverage) -> String {
     let decision = decision(found);
-    if let (Some(factor), Some(width)) = (found.guard_factor, found.guard_band) {
+    let of_u = match (found.guard_rule, found.guard_factor) {
+        (Some(rule), _) => Some(named_text(rule, coverage)),
+        (None, factor) => factor.map(|factor| multiple_text(factor, coverage)),
+    };
+    if let (Some(rule), None) = (&of_u, found.guard_band) {
+        return format!(
+            "Decision rule: guarded acceptance ({rule}), which accepts no value, as U is more than half of \
+             the tolerance. Decision: {decision}."
+        );
+    }
+    if let (Some(rule), Some(width)) = (of_u, found.guard_band) {
         let digits = position(width, 3);
-        let rule = multiple_text(factor, coverage);
         let guard = in_unit(&to(width, digits), &output.unit);
         return match found.acceptance {
             Some(acceptance) => format!(
@@ -293,6 +331,12 @@ fn risks_text(found: &Conformity, trials: Option<u64>) -> String {
             significant(100.0 * risks.false_acceptance, 3),
             significant(100.0 * risks.false_rejection, 3)
         );
+        if risks.acceptance > 0.0 {
+            text += &format!(
+                " Of the accepted items {} % do not conform (conditional risk of false acceptance).",
+                significant(100.0 * risks.conditional_false_acceptance(), 3)
+            );
+        }
     }
     text
 }

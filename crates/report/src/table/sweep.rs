@@ -3,16 +3,17 @@
 use std::collections::BTreeMap;
 
 use super::comparison::{decision, limits_text, rule};
-use super::{row_numbers, text, unit_text};
+use super::{in_unit, row_numbers, text, unit_text};
 use crate::evaluation::Taken;
 use crate::number::{MISSING, exact, justified, place_of_ends, position, rounded, significant, to};
 use crate::sheet::{Figure, Sheet};
-use gumption_engine::model::{Output, Quantity};
+use gumption_analysis::capability_line::{self, FittedLine, LineForm};
+use gumption_engine::model::{CapabilityLine, Output, Quantity};
 use gumption_engine::number::largest_first;
 use gumption_engine::propagate::gum::Gum;
 use gumption_engine::propagate::monte_carlo::{MonteCarlo, StatedInterval};
 use gumption_engine::propagate::{
-    Conformity, ConformityLevel, OutputEvaluation, RowEvaluation, naming,
+    Conformity, ConformityLevel, OutputEvaluation, RowEvaluation, Stated, naming,
 };
 use gumption_engine::task::{Settings, Task};
 
@@ -86,6 +87,50 @@ pub(crate) fn conformity(task: &Task, rows: &[RowEvaluation], output: usize) -> 
          json.{}",
         rule(first, task.settings.coverage),
         decided_apart.map_or_else(String::new, |said| format!(" {said}"))
+    ))
+}
+
+/// The line of a capability over the U of all rows; `None` where none is asked for.
+pub(crate) fn capability_line(
+    task: &Task,
+    rows: &[RowEvaluation],
+    output: usize,
+) -> Option<(CapabilityLine, FittedLine, f64)> {
+    let asked = task.model.outputs.get(output)?.capability_line?;
+    let point = |row: &RowEvaluation| {
+        let stated = Stated::of(row.outputs.get(output)?, &task.settings)?;
+        Some((*row.conditions.get(asked.condition)?, stated.expanded_uncertainty))
+    };
+    let points: Vec<(f64, f64)> = rows.iter().map(point).collect::<Option<_>>()?;
+    let form = if asked.is_quadratic { LineForm::Quadratic } else { LineForm::Linear };
+    let line = capability_line::fit(&points, form, asked.digits)?;
+    let excess = points.iter().map(|(at, expanded)| (line.at(*at) / expanded - 1.0).max(0.0));
+    Some((asked, line, excess.sum::<f64>() / points.len() as f64))
+}
+
+/// The same as a sentence.
+pub(crate) fn capability_line_text(
+    task: &Task,
+    rows: &[RowEvaluation],
+    output: usize,
+) -> Option<String> {
+    let (asked, line, excess) = capability_line(task, rows, output)?;
+    let unit = &task.model.outputs.get(output)?.quantity.unit;
+    let condition = task.model.conditions.get(asked.condition)?;
+    let [a, b] = [line.constant, line.slope].map(exact);
+    let name = &condition.name;
+    let text = match asked.is_quadratic {
+        true => in_unit(&format!("Q[{a}; {b} {name}]"), unit),
+        false => in_unit(&format!("({a} + {b} {name})"), unit),
+    };
+    let of = match condition.unit.text() {
+        "" | "1" => String::new(),
+        unit => format!(", {name} in {unit}"),
+    };
+    Some(format!(
+        "CMC line: {text}{of}. U of all {} rows lies on or below it (k of this page), on average by {} %.",
+        rows.len(),
+        rounded(100.0 * excess, -1)
     ))
 }
 

@@ -272,6 +272,8 @@ const FILES: Sentences = &[
         {pairs}"),
     ("certificate-correlation-moved", "correlation coefficients of a certificate that are impossible for \
         the distributions of its results are replaced by the nearest possible ones: {pairs}"),
+    ("codata-correlation", "correlation coefficients between measured constants are those of CODATA 2022: \
+        {pairs}"),
     ("correlation-with-constant", "the correlation of `{first}` and `{second}` has no effect, because \
         `{constant}` has no uncertainty"),
     ("result-correlation", "the correlation of saved results is kept: {pairs}"),

@@ -299,6 +299,8 @@ const FILES: Sentences = &[
     ("certificate-correlation-moved", "Korrelationskoeffizienten eines Kalibrierscheins, die für die \
         Verteilungen seiner Ergebnisse unmöglich sind, werden durch die nächsten möglichen ersetzt: \
         {pairs}"),
+    ("codata-correlation", "Korrelationskoeffizienten zwischen gemessenen Konstanten sind die von CODATA \
+        2022: {pairs}"),
     ("correlation-with-constant", "die Korrelation von `{first}` und `{second}` hat keine Wirkung, denn \
         `{constant}` hat keine Unsicherheit"),
     ("result-correlation", "die Korrelation gespeicherter Ergebnisse bleibt erhalten: {pairs}"),

@@ -19,6 +19,16 @@ pub struct GlobalRisks {
     pub false_acceptance: f64,
     /// That an item is rejected and conforms (the producer's risk).
     pub false_rejection: f64,
+    /// That an item is accepted.
+    pub acceptance: f64,
+}
+
+impl GlobalRisks {
+    /// The conditional risk of false acceptance: the share of the accepted items that does not conform
+    /// (Bayes' theorem; ANSI/NCSL Z540.3 handbook, CPFA). NaN if no item is accepted.
+    pub fn conditional_false_acceptance(&self) -> f64 {
+        self.false_acceptance / self.acceptance
+    }
 }
 
 /// Scores beyond this are left out: 1e-17 of all items.
@@ -59,10 +69,12 @@ impl<'a> Inspection<'a> {
         let f = |z: f64| density(z) * accepted(self.prior.at_score(z));
         let rejected = |z: f64| density(z) * (1.0 - accepted(self.prior.at_score(z)));
         let cuts = self.cuts(acceptance);
+        let false_acceptance =
+            integral(&f, -FARTHEST, lower, &cuts) + integral(&f, upper, FARTHEST, &cuts);
         GlobalRisks {
-            false_acceptance: integral(&f, -FARTHEST, lower, &cuts)
-                + integral(&f, upper, FARTHEST, &cuts),
+            false_acceptance,
             false_rejection: integral(&rejected, lower, upper, &cuts),
+            acceptance: false_acceptance + integral(&f, lower, upper, &cuts),
         }
     }
 

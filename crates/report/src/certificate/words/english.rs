@@ -150,10 +150,16 @@ pub(super) const WORDS: Words = Words {
         acceptance {a} %, false rejection {b} %.",
     percent: ["{p} %", "more than {p} %", "less than {p} %"],
     simple: "Decision rule: simple acceptance (JCGM 106:2012, 8.2).",
-    multiple: "Decision rule: guarded acceptance with a guard band of {factor} U \
+    multiple: "Decision rule: guarded acceptance with a guard band of {band} \
         ({clause}), with U before rounding; guard band {guard}, accepted {limits}.",
-    too_wide: "Decision rule: guarded acceptance with a guard band of {factor} U \
+    too_wide: "Decision rule: guarded acceptance with a guard band of {band} \
         ({clause}), with U before rounding; guard band {guard}, more than half of the tolerance: no value is accepted.",
+    no_band: "Decision rule: guarded acceptance with a guard band of {band} ({clause}), with U before \
+        rounding; U is more than half of the tolerance: no value is accepted.",
+    of_rule: [
+        "{rule}; T: half of the tolerance",
+        "{rule}; T: half of the tolerance; U with k = {k}, the rule is for U of approximately 95 %",
+    ],
     of_ilac_g8: [
         "ILAC-G8:09/2019, 4.2.2",
         "U with k = {k}; ILAC-G8:09/2019, 4.2.2, defines the guard band for U of approximately 95 %",

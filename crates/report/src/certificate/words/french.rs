@@ -156,11 +156,17 @@ pub(super) const WORDS: Words = Words {
         : acceptation à tort {a} %, rejet à tort {b} %.",
     percent: ["{p} %", "plus de {p} %", "moins de {p} %"],
     simple: "Règle de décision : acceptation simple (JCGM 106:2012, 8.2).",
-    multiple: "Règle de décision : acceptation avec une bande de garde de {factor} U \
+    multiple: "Règle de décision : acceptation avec une bande de garde de {band} \
         ({clause}), avec U avant arrondi ; bande de garde {guard}, accepté {limits}.",
-    too_wide: "Règle de décision : acceptation avec une bande de garde de {factor} U \
+    too_wide: "Règle de décision : acceptation avec une bande de garde de {band} \
         ({clause}), avec U avant arrondi ; bande de garde {guard}, plus que la moitié de la tolérance : aucune \
         valeur n'est acceptée.",
+    no_band: "Règle de décision : acceptation avec une bande de garde de {band} ({clause}), avec U avant \
+        arrondi ; U est plus que la moitié de la tolérance : aucune valeur n'est acceptée.",
+    of_rule: [
+        "{rule} ; T : moitié de la tolérance",
+        "{rule} ; T : moitié de la tolérance ; U avec k = {k}, la règle est définie pour U à 95 % environ",
+    ],
     of_ilac_g8: [
         "ILAC-G8:09/2019, 4.2.2",
         "U avec k = {k} ; ILAC-G8:09/2019, 4.2.2, définit la bande de garde pour U à 95 % environ",

@@ -160,11 +160,17 @@ pub(super) const WORDS: Words = Words {
         Annahme {a} %, irrtümliche Rückweisung {b} %.",
     percent: ["{p} %", "mehr als {p} %", "weniger als {p} %"],
     simple: "Entscheidungsregel: einfache Annahme (JCGM 106:2012, 8.2).",
-    multiple: "Entscheidungsregel: Annahme mit einem Sicherheitsband von {factor} U \
+    multiple: "Entscheidungsregel: Annahme mit einem Sicherheitsband von {band} \
         ({clause}), mit U vor der Rundung; Sicherheitsband {guard}, angenommen {limits}.",
-    too_wide: "Entscheidungsregel: Annahme mit einem Sicherheitsband von {factor} U \
+    too_wide: "Entscheidungsregel: Annahme mit einem Sicherheitsband von {band} \
         ({clause}), mit U vor der Rundung; Sicherheitsband {guard}, mehr als die halbe Toleranz: kein Wert wird \
         angenommen.",
+    no_band: "Entscheidungsregel: Annahme mit einem Sicherheitsband von {band} ({clause}), mit U vor der \
+        Rundung; U ist mehr als die halbe Toleranz: kein Wert wird angenommen.",
+    of_rule: [
+        "{rule}; T: halbe Toleranz",
+        "{rule}; T: halbe Toleranz; U mit k = {k}, die Regel gilt für U mit etwa 95 %",
+    ],
     of_ilac_g8: [
         "ILAC-G8:09/2019, 4.2.2",
         "U mit k = {k}; ILAC-G8:09/2019, 4.2.2, legt das Sicherheitsband für U mit etwa 95 % fest",

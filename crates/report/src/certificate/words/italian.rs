@@ -151,11 +151,17 @@ pub(super) const WORDS: Words = Words {
         accettazione: falsa accettazione {a} %, falso rifiuto {b} %.",
     percent: ["{p} %", "oltre {p} %", "meno di {p} %"],
     simple: "Regola decisionale: accettazione semplice (JCGM 106:2012, 8.2).",
-    multiple: "Regola decisionale: accettazione con una banda di guardia di {factor} U \
+    multiple: "Regola decisionale: accettazione con una banda di guardia di {band} \
         ({clause}), con U prima dell'arrotondamento; banda di guardia {guard}, accettato {limits}.",
-    too_wide: "Regola decisionale: accettazione con una banda di guardia di {factor} U \
+    too_wide: "Regola decisionale: accettazione con una banda di guardia di {band} \
         ({clause}), con U prima dell'arrotondamento; banda di guardia {guard}, più della metà della tolleranza: nessun \
         valore è accettato.",
+    no_band: "Regola decisionale: accettazione con una banda di guardia di {band} ({clause}), con U prima \
+        dell'arrotondamento; U è più della metà della tolleranza: nessun valore è accettato.",
+    of_rule: [
+        "{rule}; T: metà della tolleranza",
+        "{rule}; T: metà della tolleranza; U con k = {k}, la regola è definita per U al 95 % circa",
+    ],
     of_ilac_g8: [
         "ILAC-G8:09/2019, 4.2.2",
         "U con k = {k}; ILAC-G8:09/2019, 4.2.2, definisce la banda di guardia per U al 95 % circa",

@@ -146,11 +146,15 @@ pub(super) struct Words {
     /// A probability, one above a number and one below it: `{p}`.
     pub(super) percent: [&'static str; 3],
     pub(super) simple: &'static str,
-    /// A guard band in multiples of U: `{factor}`, `{clause}`, `{guard}`, `{limits}`
+    /// A guard band by U: `{band}`, `{clause}`, `{guard}`, `{limits}`
     pub(super) multiple: &'static str,
-    /// The same for a guard band that leaves no acceptance interval: `{factor}`, `{clause}`,
+    /// The same for a guard band that leaves no acceptance interval: `{band}`, `{clause}`,
     /// `{guard}`
     pub(super) too_wide: &'static str,
+    /// The same for a rule that has no guard band for so large a U: `{band}`, `{clause}`.
+    pub(super) no_band: &'static str,
+    /// The name of a rule, and how it differs if U is not for approximately 95 %: `{rule}`, `{k}`.
+    pub(super) of_rule: [&'static str; 2],
     /// The clause for this guard band, and how it differs if U is not for approximately 95 %:
     /// `{k}`.
     pub(super) of_ilac_g8: [&'static str; 2],
@@ -248,7 +252,7 @@ mod tests {
             marks.sort_unstable();
             marks
         }
-        let templates: [fn(&Words) -> &'static str; 37] = [
+        let templates: [fn(&Words) -> &'static str; 40] = [
             |w| w.period,
             |w| w.rows[0],
             |w| w.rows[1],
@@ -267,6 +271,9 @@ mod tests {
             |w| w.prior,
             |w| w.global_risks,
             |w| w.multiple,
+            |w| w.no_band,
+            |w| w.of_rule[0],
+            |w| w.of_rule[1],
             |w| w.specification,
             |w| w.approximately,
             |w| w.many,

@@ -9,7 +9,7 @@ use crate::number::{place_of_ends, position};
 use crate::workbook::{Cached, Leaf, Look, PERCENT, here};
 use crate::{EvaluationReport, plain, table};
 use gumption_engine::decimal::Decimal;
-use gumption_engine::model::Output;
+use gumption_engine::model::{GuardRule, Output};
 use gumption_engine::propagate::gum::{Dof, Gum};
 use gumption_engine::propagate::monte_carlo::MonteCarlo;
 use gumption_engine::propagate::{Conformity, OutputEvaluation};
@@ -305,6 +305,15 @@ impl Deciding {
 /// Values that differ by no more than this share are the same but for the rounding of turns.
 const SAME: f64 = 1e-12;
 
+/// The width of a guard band with a name, from half of the tolerance and the expanded uncertainty.
+fn named_band(rule: GuardRule, t: &str, u: &str) -> String {
+    match rule {
+        GuardRule::Rss => format!("{t}-SQRT({t}^2-{u}^2)"),
+        GuardRule::Rp10 => format!("MAX(0,{u}-{t}/4)"),
+        GuardRule::Dobbert => format!("MAX(0,{u}*(1.04-EXP(0.38*LN({t}/{u})-0.54)))"),
+    }
+}
+
 /// Tolerance, limits of acceptance and decision, which follow the inputs where the estimate by the law
 /// of propagation decides: the guard band in proportion to its standard uncertainty. All others are
 /// those of the evaluation.
@@ -349,7 +358,13 @@ fn decided(
             let live = u.filter(|u| matches!(deciding, Deciding::Propagated(_)) && *u > 0.0);
             match live {
                 Some(u) => {
-                    let band = format!("{:?}*{}", width / u, of(UNCERTAINTY));
+                    let band = match (conformity.guard_rule, conformity.expanded_uncertainty) {
+                        (Some(rule), Some(expanded)) => {
+                            let expanded = format!("({:?}*{})", expanded / u, of(UNCERTAINTY));
+                            named_band(rule, &format!("(({}-{})/2)", cell(1), cell(0)), &expanded)
+                        }
+                        _ => format!("{:?}*{}", width / u, of(UNCERTAINTY)),
+                    };
                     leaf.formula(place(2), &band, &now(width), shown, Look::Plain)?;
                 }
                 None => leaf.number(place(2), width, shown, Look::Plain)?,
