@@ -33,8 +33,8 @@ fn derived_constants_have_their_published_uncertainties() {
     });
     let published = [
         ("electron", "2*[h]*R/([c]*a^2)", "kg", 9.109_383_713_9e-31, 2.8e-40),
-        ("proton_electron", "mp/me", "1", 1836.152_673_426, 3.2e-8),
-        ("alpha_electron", "malpha/me", "1", 7294.299_541_71, 1.7e-7),
+        ("proton_electron", "mp/me", "1", 1_836.152_673_426, 3.2e-8),
+        ("alpha_electron", "malpha/me", "1", 7_294.299_541_71, 1.7e-7),
         ("deuteron_proton", "md/mp", "1", 1.999_007_501_269_9, 8.4e-12),
         ("muon_proton", "mmu/mp", "1", 0.112_609_526_2, 2.5e-9),
         ("neutron_proton", "mn/mp", "1", 1.001_378_419_46, 4.0e-10),

@@ -12,7 +12,7 @@ use serde_json::Value;
 use crate::support::{command, file_name, root};
 
 /// Mistakes that `check` does not see, with the command that does.
-const COMMANDS: [(&str, &[&str]); 25] = [
+const COMMANDS: [(&str, &[&str]); 27] = [
     ("wrong_kind_of_file", &["certificate", "wrong_kind_of_file.json"]),
     ("several_rows", &["diff", "good.result", "several_rows.json"]),
     ("run_undefined", &["run", "--trials", "1000", "run_undefined.json"]),
@@ -22,6 +22,8 @@ const COMMANDS: [(&str, &[&str]); 25] = [
         &["certificate", "--format", "dcc", "certificate_dcc_incomplete.json"],
     ),
     ("recipe_above_nyquist", &["observe", "recipe_above_nyquist.json"]),
+    ("recipe_waveform_beyond_points", &["observe", "recipe_waveform_beyond_points.json"]),
+    ("recipe_waveform_integral", &["observe", "recipe_waveform_integral.json"]),
     ("recipe_less_than_one_period", &["observe", "recipe_less_than_one_period.json"]),
     ("recipe_step_not_possible", &["observe", "recipe_step_not_possible.json"]),
     ("recipe_filter_above_nyquist", &["observe", "recipe_filter_above_nyquist.json"]),

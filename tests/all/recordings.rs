@@ -13,7 +13,7 @@ pub(crate) mod program;
 
 use program::truth;
 
-const BENCHES: [&str; 3] = ["iepe_chain", "rotating_table", "spurious_components"];
+const BENCHES: [&str; 4] = ["iepe_chain", "rotating_table", "shock", "spurious_components"];
 
 /// The same bytes, but for one step where the sine of another platform rounds to another one.
 #[test]
@@ -85,7 +85,7 @@ fn documented_commands_find_what_was_put_in() {
         }
     }
     let commands = documented();
-    assert_eq!(commands.len(), 10);
+    assert_eq!(commands.len(), 12);
     for arguments in &commands {
         let said = command().current_dir(folder).args(arguments).output().expect("it runs");
         let error = String::from_utf8_lossy(&said.stderr);
@@ -94,7 +94,8 @@ fn documented_commands_find_what_was_put_in() {
     }
     // the committed observations are those of the commands; the last digits of another platform's
     // arithmetic are left out
-    for bench in BENCHES {
+    // a waveform has no observations
+    for bench in BENCHES.into_iter().filter(|bench| *bench != "shock") {
         let name = format!("models/recordings/{bench}/observations.csv");
         let read = |folder: &Path| fs::read_to_string(folder.join(&name)).expect("observations");
         let (made, committed) = (read(folder), read(root()));
@@ -110,6 +111,40 @@ fn documented_commands_find_what_was_put_in() {
     rotating_table(folder);
     iepe_chain(folder);
     spurious_components(folder);
+}
+
+/// Quick, so that it runs with every test: the shock, its accelerometer, and their ratio.
+#[test]
+fn a_shock_is_corrected() {
+    let run = json(root(), &["run", "models/recordings/shock/sensor.json", "--trials", "0"]);
+    let [sensitivity, resonance, damping, delay] = truth::PIEZO;
+    let parameters = [
+        ("S0", sensitivity),
+        ("f0", 1e-3 * resonance),
+        ("damping", damping),
+        ("delay", 1e6 * delay),
+    ];
+    for (name, truth) in parameters {
+        let gum = &run["rows"][0]["outputs"][name]["gum"];
+        near(name, &gum["estimate"], &gum["standard_uncertainty"], truth);
+    }
+    let observed = json(root(), &["observe", "models/recordings/shock/recipe.json"]);
+    let waveforms = &observed["rows"][0]["waveforms"];
+    let [peak, width] = truth::SHOCK;
+    near_observed("reference", &waveforms["reference"]["quantities"]["maximum"], peak);
+    let quantities = &waveforms["a"]["quantities"];
+    near_observed("maximum", &quantities["maximum"], peak);
+    near_observed("time", &quantities["maximum_time"], 1e-3 + 0.5 * width);
+    near_observed("ratio", &quantities["ratio"], 1.0);
+    near_observed("velocity", &quantities["velocity_change"], 0.5 * peak * width);
+    // of a squared sine: twice the arc cosine of the root of a tenth, of the half width
+    let lasts = width * 2.0 / std::f64::consts::PI * 0.1f64.sqrt().acos();
+    near_observed("duration", &quantities["duration"], lasts);
+    // what rings after the shock is taken off
+    let values = waveforms["a"]["values"].as_array().expect("values");
+    assert_eq!(values.len(), 2000);
+    let last = number(values.last().expect("a value"));
+    assert!(last.abs() < 0.01 * peak, "{last}");
 }
 
 fn rotating_table(folder: &Path) {

@@ -147,8 +147,7 @@ fn recipe(root: &Object<'_>, context: Context<'_>, folder: Folder<'_>) -> Option
     let recordings = recordings::read(root, folder)?;
     let mut files = RecipeFiles { context, folder, read: Vec::new(), warnings: Vec::new() };
     let channels = channels::read(root, &recordings, &mut files);
-    let has_frequency =
-        channels.as_ref().is_none_or(|all| all.iter().all(|of| of.waveform.is_none()));
+    let has_frequency = channels.as_ref().map(|all| all.iter().all(|of| of.waveform.is_none()));
     let reference = reference(root);
     let method = named(root, "method", &Method::ALL, Method::name);
     let amplitude = named(root, "amplitude", &Amplitude::ALL, Amplitude::name);

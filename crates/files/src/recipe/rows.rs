@@ -19,7 +19,7 @@ type Read = (Vec<RecipeRow>, Vec<RecipeCondition>, String);
 pub(super) fn read(
     root: &Object<'_>,
     recordings: &[RecordingFile],
-    (single, has_frequency): (bool, bool),
+    (single, has_frequency): (bool, Option<bool>),
 ) -> Option<Read> {
     let general = root.get("frequency").map(|member| (frequencies(root, member), member));
     let name = match root.get("frequency").map(|member| &member.value.value) {
@@ -95,8 +95,8 @@ struct RecipeRowsReader<'a> {
     general: Option<(Option<Vec<Frequency>>, &'a Member)>,
     /// Whether a row has one frequency at most.
     single: bool,
-    /// Whether it has any.
-    has_frequency: bool,
+    /// Whether it has any; not known where the channels are wrong.
+    has_frequency: Option<bool>,
 }
 
 impl RecipeRowsReader<'_> {
@@ -115,14 +115,14 @@ impl RecipeRowsReader<'_> {
         let own = object.as_ref().and_then(|object| object.get("frequency").map(|m| (object, m)));
         let (frequencies, frequency_place) = match (own, &self.general) {
             (Some((object, member)), _) => {
-                if !self.has_frequency {
+                if self.has_frequency == Some(false) {
                     let reason = "a row of waveforms has no `frequency`".to_owned();
                     log.report(&member.key_span, DiagnosticKind::Recipe { reason });
                 }
                 (frequencies(object, member), member.key_span.clone())
             }
             (None, Some((general, member))) => (general.clone(), member.key_span.clone()),
-            (None, None) if !self.has_frequency => (Some(Vec::new()), place.clone()),
+            (None, None) if self.has_frequency != Some(true) => (Some(Vec::new()), place.clone()),
             (None, None) => {
                 let what = if node.is_some() { "a row of a recipe" } else { "a recipe" };
                 log.report(&place, DiagnosticKind::MissingKey { key: "frequency", what });

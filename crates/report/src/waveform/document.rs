@@ -115,7 +115,7 @@ fn method(channel: &WaveformChannel, of: &Waveform, unit: &str) -> String {
         };
         let phase = match delay {
             None => "without a shift of phase".to_owned(),
-            Some(delay) => format!("less a delay of {} s", exact(delay)),
+            Some(delay) => format!("less a delay of {} s", significant(delay, 4)),
         };
         let poles = if order == 1 { "1 pole".to_owned() } else { format!("{order} equal poles") };
         said.push(format!(
@@ -126,7 +126,7 @@ fn method(channel: &WaveformChannel, of: &Waveform, unit: &str) -> String {
             Truncation::Nothing => "the recipe says that it takes nothing away".to_owned(),
             Truncation::Bound(size) => {
                 let unit = if unit == "1" { "" } else { unit };
-                format!("what it takes away is at most {} {unit}", exact(size)).trim_end().to_owned()
+                format!("what it takes away is at most {} {unit}", significant(size, 4)).trim_end().to_owned()
             }
             Truncation::Decay { from, power } => format!(
                 "what it takes away is bounded by a spectrum that falls with the power {} of the frequency from {} Hz on",

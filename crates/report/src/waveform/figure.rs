@@ -17,7 +17,8 @@ const UNCERTAINTIES: f64 = 170.0;
 /// The least and the greatest of several lines in a column of samples.
 struct Column {
     instant: f64,
-    values: [f64; 2],
+    /// The least and the greatest value with their instants, in the order of these.
+    values: [(f64, f64); 2],
     band: [f64; 2],
     u: f64,
     of_trials: f64,
@@ -52,7 +53,7 @@ pub(super) fn of(
             };
             let chart = panel(&values, &values_label, &top)?;
             band(&chart, &columns)?;
-            line(&chart, columns.iter().flat_map(|of| of.values.map(|y| (of.instant, y))), INK)?;
+            line(&chart, columns.iter().flat_map(|of| of.values), INK)?;
             let chart = panel(&uncertainties, &u_label, &bottom)?;
             if has_trials {
                 line(&chart, columns.iter().map(|of| (of.instant, of.of_trials)), BEFORE)?;
@@ -81,10 +82,15 @@ fn column(of: &Waveform, first: usize, each: usize) -> Column {
     let own = || of.signal.values[first..last].iter().zip(&of.standard_uncertainties[first..last]);
     let [low, _] = range(&mut own().map(|(x, u)| x - FACTOR * u));
     let [_, high] = range(&mut own().map(|(x, u)| x + FACTOR * u));
+    let order = |a: &usize, b: &usize| of.signal.values[*a].total_cmp(&of.signal.values[*b]);
+    let [least, greatest] = [(first..last).min_by(order), (first..last).max_by(order)];
+    let mut places = [least.unwrap_or(first), greatest.unwrap_or(first)];
+    places.sort_unstable();
+    let values = places.map(|at| (of.signal.instant(at as f64), of.signal.values[at]));
     let of_trials = of.trials.as_ref().and_then(|of| of.standard_uncertainties.get(first..last));
     Column {
         instant: of.signal.instant(0.5 * (first + last - 1) as f64),
-        values: range(&mut own().map(|(x, _)| *x)),
+        values,
         band: [low, high],
         u: own().map(|(_, u)| *u).fold(0.0, f64::max),
         of_trials: of_trials.map_or(0.0, |all| all.iter().copied().fold(0.0, f64::max)),

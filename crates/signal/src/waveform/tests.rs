@@ -121,7 +121,7 @@ fn standard_uncertainties_are_right() {
         *value *= low_pass.gain(4000.0, lines.hertz(line));
     }
     let kept = Signal { values: lines.inverse(spectrum), rate, start: 0.0 };
-    let quantities = vec![WaveformQuantity::Maximum, WaveformQuantity::MaximumTime];
+    let quantities = [WaveformQuantity::Maximum, WaveformQuantity::MaximumTime];
     let instants = [100, 215, 225, 240];
     let mut squares = [0.0; 6];
     let (mut stated, mut drawn) = ([0.0; 6], [0.0; 6]);

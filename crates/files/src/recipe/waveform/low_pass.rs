@@ -102,7 +102,7 @@ pub(super) fn truncation(of: &Object<'_>, unit: &Unit, has_low_pass: bool) -> Op
     let from = above_zero(&inner, "from", "Hz");
     inner.required("decay")?;
     let power = inner.number("decay")?;
-    if !(power > 1.0) {
+    if power.is_nan() || power <= 1.0 {
         let (key, range) = ("decay".to_owned(), "above 1");
         let diagnostic = DiagnosticKind::OutOfRange { key, found: power, range };
         of.log.report(&inner.get("decay")?.value.span, diagnostic);
