@@ -125,7 +125,7 @@ fn a_shock_is_corrected() {
         ("delay", 1e6 * delay),
     ];
     for (name, truth) in parameters {
-        let gum = &run["rows"][0]["outputs"][name]["gum"];
+        let gum = &run["outputs"][name]["gum"];
         near(name, &gum["estimate"], &gum["standard_uncertainty"], truth);
     }
     let observed = json(root(), &["observe", "models/recordings/shock/recipe.json"]);

@@ -155,6 +155,7 @@ fn compute(name: &str, inputs: &[f64]) -> Vec<f64> {
         RelativeSensitivity,
         RotatingTable,
         RotatingTableInstant,
+        SeismicResponse,
         Sensitivity,
         SensitivityMatrix,
         SpuriousComponent,

@@ -48,7 +48,8 @@ pub(super) const GROUPS: [OptionGroup; 18] = [
     ]),
     own("assumptions", "Limit", &["allow"]),
     own("compare", "Laboratories and proficiency tests", &[
-        "estimator", "scheme", "assigned", "assigned-u", "sigma",
+        "estimator", "scheme", "assigned", "assigned-u", "sigma", "interaction", "lower",
+        "upper",
     ]),
     own("gap-check", "Simulated data", &["draws", "noise", "keep"]),
     common("Monte Carlo", &[
