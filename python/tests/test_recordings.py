@@ -45,7 +45,7 @@ def test_a_corrected_signal_by_numpy() -> None:
         "x": {"unit": "Hz", "values": f.tolist()},
         "y": {"complex": {
             "modulus": {"unit": "V/N", "values": modulus.tolist(), "standard_uncertainty": u.tolist()},
-            "phase": {"unit": "deg", "values": [0.0] * 5, "standard_uncertainty": 0.0},
+            "phase": {"unit": "deg", "values": [0.0] * 5, "standard_uncertainty": 1e-12},
         }},
     }  # fmt: skip
     found = gu.observe(

@@ -562,14 +562,7 @@ impl<'a> InputReader<'a, '_> {
     fn certified(&mut self, name: &str, object: &Object<'_>, of: Option<&FromCertificate>) {
         let file = object.text("file").unwrap_or("");
         let Some(of) = of else { return };
-        let called = of.unknown_distribution.as_ref();
-        let mut notes = Vec::new();
-        notes.extend(of.of_interval.then(|| fact!("interval-uncertainty", name, file)));
-        notes.extend(called.map(|called| fact!("certificate-distribution", name, file, called)));
-        notes.extend(of.is_difference.then(|| fact!("certificate-difference", name, file)));
-        notes.extend(of.is_without.then(|| fact!("certificate-exact", name, file)));
-        notes.extend(of.is_before.then(|| fact!("certificate-before-adjustment", name, file)));
-        notes.extend(of.is_asymmetric.then(|| fact!("certificate-asymmetric", name, file)));
+        let notes = of.notes(name, file);
         self.inputs.warnings.extend(notes.into_iter().map(|fact| Warning::new(name, fact)));
         self.inputs.from_certificates.push((name.to_owned(), of.place.clone()));
         let certified = of.certified.clone();

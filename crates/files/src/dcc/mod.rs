@@ -28,6 +28,8 @@ pub(super) use document::{Fault, parse, tag};
 use gumption_engine::distribution::{
     Arcsine, Constant, Distribution, Invalid, Normal, Rectangular, Triangular,
 };
+use gumption_engine::fact;
+use gumption_engine::fact::Fact;
 use gumption_engine::number::{Shortest, smallest_first};
 use gumption_text::named_shape::NamedShape;
 use gumption_text::object::Object;
@@ -132,6 +134,31 @@ struct TablePoint {
     x: f64,
     y: f64,
     known: KnownValue,
+}
+
+/// A table of a certificate: the unit of its abscissae, and points with abscissa, value and standard uncertainty.
+pub(super) type CertifiedTable = (Unit, Vec<[f64; 3]>);
+
+impl FromCertificate {
+    /// The table over a condition, if one was asked for.
+    pub(super) fn table(&self) -> Option<CertifiedTable> {
+        let Taken::Table { unit, points, .. } = &self.taken else { return None };
+        let points = points.iter().map(|point| [point.x, point.y, point.known.standard]);
+        Some(((**unit).clone(), points.collect()))
+    }
+
+    /// What is to be borne in mind about it, as that of the quantity `name` from this file.
+    pub(super) fn notes(&self, name: &str, file: &str) -> Vec<Fact> {
+        let called = self.unknown_distribution.as_ref();
+        let mut notes = Vec::new();
+        notes.extend(self.of_interval.then(|| fact!("interval-uncertainty", name, file)));
+        notes.extend(called.map(|called| fact!("certificate-distribution", name, file, called)));
+        notes.extend(self.is_difference.then(|| fact!("certificate-difference", name, file)));
+        notes.extend(self.is_without.then(|| fact!("certificate-exact", name, file)));
+        notes.extend(self.is_before.then(|| fact!("certificate-before-adjustment", name, file)));
+        notes.extend(self.is_asymmetric.then(|| fact!("certificate-asymmetric", name, file)));
+        notes
+    }
 }
 
 /// Reads what the object takes from a certificate; mistakes are reported, those of the certificate

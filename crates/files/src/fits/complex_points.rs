@@ -108,6 +108,8 @@ impl FitReader<'_, '_> {
         let of_first = read(first, first_key, &mut self.set.files);
         let of_second = read(second, second_key, &mut self.set.files);
         let (x, mut of_first, mut of_second) = (x?, of_first?, of_second?);
+        self.note(&mut of_first);
+        self.note(&mut of_second);
         let n = x.values.len();
         for (key, side) in [(first_key, &of_first), (second_key, &of_second)] {
             let found = side.values.len();

@@ -243,7 +243,8 @@ impl FitReader<'_, '_> {
         let files = &mut self.set.files;
         let x = points::read(self.object.log, x, "x", (folder, &mut tables), files);
         let y = points::read(self.object.log, y, "y", (folder, &mut tables), files);
-        let (x, y) = (x?, y?);
+        let (x, mut y) = (x?, y?);
+        self.note(&mut y);
         if x.values.len() != y.values.len() {
             let reason = format!(
                 "x has {} values and y has {}, but each point has both",
@@ -263,6 +264,12 @@ impl FitReader<'_, '_> {
         let points =
             Points::new(x.values, y.values).with_x(x.spread).with_y(y.spread).with_cross(cross);
         Some((points, (x.unit, y.unit), [x.is_stated, y.is_stated]))
+    }
+
+    /// Adds the notes on a coordinate.
+    fn note(&mut self, side: &mut points::Side) {
+        let notes = std::mem::take(&mut side.notes);
+        self.set.warnings.extend(notes.into_iter().map(|fact| Warning::new(self.name, fact)));
     }
 
     fn fault(&self, reason: String, place: &Range<usize>) {

@@ -4,8 +4,10 @@ use std::rc::Rc;
 
 use super::super::conditions::unit;
 use super::super::dates;
+use super::super::dcc::{self, Certificates};
 use super::super::keys;
 use super::matrix;
+use gumption_engine::fact::Fact;
 use gumption_engine::regression::Spread;
 use gumption_text::json::{Json, Member};
 use gumption_text::object::Object;
@@ -22,6 +24,8 @@ pub(crate) struct Side {
     /// Whether the file says the unit.
     pub(super) is_stated: bool,
     pub(super) spread: Spread,
+    /// What is to be borne in mind about a certificate.
+    pub(super) notes: Vec<Fact>,
 }
 
 /// The tables of a fit, each read once: both coordinates mostly are columns of one. Only the columns that the fit
@@ -78,6 +82,9 @@ pub(super) fn read(
     };
     let object = Object::new(log, what, &member.value, &member.key_span)?;
     keys::check(&object, keys::POINTS);
+    if let Some(member) = object.get("dcc") {
+        return certified(&object, member, name, folder, files);
+    }
     let unit = match object.get("unit") {
         None => Unit::one(),
         Some(_) => unit(&object, "unit")?,
@@ -116,7 +123,46 @@ pub(super) fn read(
     }
     let spread = spread(&object, name, &values, &unit, table.as_deref(), folder, files)?;
     let is_stated = object.get("unit").is_some();
-    Some(Side { values, unit, is_stated, spread })
+    Some(Side { values, unit, is_stated, spread, notes: Vec::new() })
+}
+
+/// A coordinate from a table of a certificate, whose abscissae are exact.
+fn certified(
+    object: &Object<'_>,
+    member: &Member,
+    name: &'static str,
+    folder: Folder<'_>,
+    files: &mut Vec<(String, Vec<u8>)>,
+) -> Option<Side> {
+    let log = object.log;
+    let other = object.members().iter().find(|other| !["dcc", "about"].contains(&&*other.key));
+    if let Some(other) = other {
+        let reason =
+            format!("`dcc` says unit, values and uncertainties; leave out `{}`", other.key);
+        log.report(&other.key_span, DiagnosticKind::Fit { name: name.to_owned(), reason });
+        return None;
+    }
+    let inner = Object::new(log, "`dcc`", &member.value, &member.key_span)?;
+    keys::check(&inner, keys::CERTIFIED_TABLE);
+    inner.required("at")?;
+    let mut certificates = Certificates::default();
+    let found = dcc::read(&inner, folder, &mut certificates)?;
+    let (of_x, points) = found.table()?;
+    for (name, content) in certificates.files {
+        if files.iter().all(|(known, _)| *known != name) {
+            files.push((name, content));
+        }
+    }
+    let column = |at: usize| points.iter().map(|point| point[at]).collect();
+    if name == "x" {
+        let (values, spread) = (column(0), Spread::None);
+        return Some(Side { values, unit: of_x, is_stated: true, spread, notes: Vec::new() });
+    }
+    let variances: Vec<f64> = points.iter().map(|point| point[2] * point[2]).collect();
+    let is_exact = variances.iter().all(|variance| *variance == 0.0);
+    let spread = if is_exact { Spread::None } else { Spread::Each(variances) };
+    let notes = found.notes(name, inner.text("file").unwrap_or(""));
+    Some(Side { values: column(1), unit: found.unit, is_stated: true, spread, notes })
 }
 
 /// A column of plain numbers of the table that a coordinate is in, if it has such a column.

@@ -68,8 +68,25 @@ pub(crate) const COMPLEX_POINTS: &[Key] = keys![
         ),
 ];
 
+/// Keys of a table of a Digital Calibration Certificate.
+pub(crate) const CERTIFIED_TABLE: &[Key] = keys![
+    "file" => referenced("file", "A Digital Calibration Certificate (XML)."),
+    "id" => text_of("The `id` of the quantity."),
+    "ref_type" => text_of("The `refType` of the quantity."),
+    "within" => text_of("The `id`, a `refType` or a name of what the quantity stands in."),
+    "status" => described("string", "Before or after what the quantity was measured.")
+        .with("enum", texts(crate::dcc::STATUSES)),
+    "quantity" => whole("The place of the quantity among all of the certificate, from 0.", 0, 1_000_000),
+    "at" => text_of("The quantity beside it over which it is a table, by its name."),
+];
+
 /// Keys of a coordinate.
 pub(crate) const POINTS: &[Key] = keys![
+    "dcc" => closed(
+        "A table of a certificate, with units and uncertainties, in place of values: of x its abscissae.",
+        CERTIFIED_TABLE,
+        &["file", "at"],
+    ),
     "unit" => reference("unit"),
     "values" => referenced("values", "The values."),
     "file" => referenced("file", "A CSV file with a header of names, instead of `values`."),

@@ -25,7 +25,9 @@ pub(crate) use certificate::{
 };
 pub(crate) use check::{check, check_names};
 pub(crate) use costs::{COST, COSTS, COSTS_KEY, OFFER};
-pub(crate) use fits::{COMPLEX_ORDINATES, COMPLEX_POINTS, COVARIANCE_FILE, FIT, POINTS};
+pub(crate) use fits::{
+    CERTIFIED_TABLE, COMPLEX_ORDINATES, COMPLEX_POINTS, COVARIANCE_FILE, FIT, POINTS,
+};
 pub(crate) use model_file::{
     CMC_LINE, CONDITION, CORRELATION_MATRIX, MODEL, MONTE_CARLO, OUTPUT, REGION,
     TABLE_OF_CONDITIONS, TOLERANCE,

@@ -306,3 +306,36 @@ fn a_certificate_of_others_with_an_adjustment() {
     assert!(before.clone().count() > 3);
     assert!(before.into_iter().all(|of| of.place.as_deref() != Some("results")));
 }
+
+/// A fit takes a table of a certificate: f = 10, 20, 40 Hz, and 1, 3, 4 mV with U = 0.2, 0.4, 0.4 mV for k = 2. The
+/// weighted straight line by hand, with weights 100, 25, 25 per (mV)^2: sums 150, 2500, 60000 of 1, f, f^2 and 275, 6500 of
+/// y, f y.
+#[test]
+fn a_fit_over_a_table() {
+    let folder = tempfile::tempdir().unwrap();
+    std::fs::write(folder.path().join("ref.xml"), certificate("3.2.1", TABLE)).unwrap();
+    let dcc = r#"{"dcc": {"file": "ref.xml", "ref_type": "basic_measuredValue", "at": "f"}}"#;
+    let model = |y: &str| {
+        let text = format!(
+            r#"{{"fits": {{"line": {{"x": {dcc}, "y": {y}}}}}, "equations": {{"v": "line(30 [Hz])"}},
+            "outputs": {{"v": {{"unit": "mV"}}}}}}"#
+        );
+        std::fs::write(folder.path().join("m.json"), text).unwrap();
+        read_model(&folder.path().join("m.json"), &[])
+    };
+    let file = model(dcc).unwrap();
+    let fit = &file.task.curves[0].fit;
+    let determinant = 150.0 * 60_000.0 - 2500.0 * 2500.0;
+    let slope = (150.0 * 6500.0 - 2500.0 * 275.0) / determinant;
+    let zero = (60_000.0 * 275.0 - 2500.0 * 6500.0) / determinant;
+    // rounding of a few operations
+    assert!((fit.estimate(1) - slope).abs() < 1e-12, "{} {slope}", fit.estimate(1));
+    assert!((fit.estimate(0) - zero).abs() < 1e-12);
+    let of_slope = (150.0_f64 / determinant).sqrt();
+    assert!((fit.standard_uncertainty(1) - of_slope).abs() < 1e-12);
+    assert_eq!((file.task.curves[0].x.text(), file.task.curves[0].y.text()), ("Hz", "mV"));
+    let twice = r#"{"dcc": {"file": "ref.xml", "ref_type": "basic_measuredValue", "at": "f"}, "unit": "V"}"#;
+    assert!(model(twice).unwrap_err().to_string().contains("leave out `unit`"));
+    let without = r#"{"dcc": {"file": "ref.xml", "ref_type": "basic_measuredValue"}}"#;
+    assert!(model(without).unwrap_err().to_string().contains("needs the key `at`"));
+}

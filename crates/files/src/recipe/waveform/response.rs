@@ -111,8 +111,8 @@ fn errors(of: &Object<'_>, found: &ComplexOrdinates) -> Option<Vec<PointError>> 
     }
     match &found.spread {
         ComplexSpread::None => {
-            let reason = "the response needs the standard uncertainties of both parts; write `\"standard_uncertainty\": \
-                          0` where one is negligible"
+            let reason = "the response needs the standard uncertainties of both parts; where one is negligible \
+                          state a very small one, such as 1e-9"
                 .to_owned();
             of.log.report(&of.get("y")?.key_span, DiagnosticKind::Recipe { reason });
             None
