@@ -5,6 +5,7 @@ use std::path::{Path, PathBuf};
 use clap::{Args, ValueEnum};
 
 use super::options::{self, AllowedFolders, AnswerOptions, Interactive, Seed};
+use super::output::AnswerPlace;
 use super::{CommandLine, Exit, Failure, run};
 use gumption_engine::fact;
 use gumption_engine::task::Warning;
@@ -98,15 +99,13 @@ impl Observe {
         self.answer.write_page(place, answer)?;
         Ok(Exit::Done)
     }
-}
 
-impl Observe {
     /// Corrects the records of a recipe of waveforms.
     fn correct(
         &self,
         file: &RecipeFile,
         mut provenance: Provenance,
-        place: crate::output::AnswerPlace,
+        place: AnswerPlace,
         page: impl FnOnce(String) -> String,
     ) -> Result<Exit, Failure> {
         let mut warnings: Vec<Warning> = file.warnings.clone();

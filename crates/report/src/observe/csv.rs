@@ -41,6 +41,6 @@ pub fn csv(observed: &ObservationReport<'_>) -> String {
 }
 
 /// The heading of a column: its name and, unless its values are numbers, their unit.
-fn heading(name: &str, unit: &str) -> String {
+pub(crate) fn heading(name: &str, unit: &str) -> String {
     if unit.is_empty() || unit == "1" { name.to_owned() } else { format!("{name} [{unit}]") }
 }

@@ -8,8 +8,11 @@ mod sheets;
 mod table;
 
 pub use self::csv::csv;
+pub(crate) use self::csv::heading;
 pub use json::json;
+pub(crate) use sheets::shares;
 pub use table::table;
+pub(crate) use table::with_units;
 
 /// The observations in GitHub Flavored Markdown.
 pub fn markdown(observed: &ObservationReport<'_>) -> String {

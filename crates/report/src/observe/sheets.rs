@@ -102,11 +102,14 @@ pub(super) fn made_of(observed: &ObservationReport<'_>, channels: &[ChannelObser
 
 /// The sources of an uncertainty with a share of a percent and more, the largest first.
 fn sources(of: &BudgetedValue) -> String {
-    let total: f64 = of.contributions.iter().map(|(_, u)| u * u).sum();
-    let mut shares: Vec<(&str, f64)> = of
-        .contributions
-        .iter()
-        .map(|(source, u)| (source.name(), 100.0 * u * u / total))
+    shares(of.contributions.iter().map(|(source, u)| (source.name(), *u)))
+}
+
+/// Contributions to a standard uncertainty with a share of a percent and more of its square, the largest first.
+pub(crate) fn shares<'n>(contributions: impl Iterator<Item = (&'n str, f64)> + Clone) -> String {
+    let total: f64 = contributions.clone().map(|(_, u)| u * u).sum();
+    let mut shares: Vec<(&str, f64)> = contributions
+        .map(|(name, u)| (name, 100.0 * u * u / total))
         .filter(|(_, share)| *share >= 1.0)
         .collect();
     largest_first(&mut shares, |a| a.1);

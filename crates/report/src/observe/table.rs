@@ -4,6 +4,7 @@ use super::{ObservationReport, sheets};
 use crate::number::{exact, significant, with_uncertainty};
 use crate::printed::on_terminal;
 use crate::{Grid, table::width, wrapped};
+use gumption_files::RecipeCondition;
 use gumption_signal::{Amplitude, ChannelObservation};
 
 /// The observations as a page of text: for each row and frequency the components of every channel, and
@@ -59,15 +60,18 @@ pub(super) fn at(
     values: &[f64],
     channels: &[ChannelObservation],
 ) -> String {
-    let conditions = observed.conditions.iter().zip(values);
-    let mut at: Vec<String> = conditions
-        .map(|(of, value)| {
-            let unit = if of.unit.text() == "1" { "" } else { of.unit.text() };
-            format!("{} = {} {unit}", of.name, exact(*value)).trim_end().to_owned()
-        })
-        .collect();
+    let mut at = with_units(observed.conditions, values);
     at.push(format!("{} = {} Hz", observed.frequency, exact(observed.hertz(channels).0)));
     at.join(", ")
+}
+
+/// Conditions with their values, each as `angle = 34 deg`.
+pub(crate) fn with_units(conditions: &[RecipeCondition], values: &[f64]) -> Vec<String> {
+    let said = conditions.iter().zip(values).map(|(of, value)| {
+        let unit = if of.unit.text() == "1" { "" } else { of.unit.text() };
+        format!("{} = {} {unit}", of.name, exact(*value)).trim_end().to_owned()
+    });
+    said.collect()
 }
 
 /// What else was found in the channels.

@@ -1,13 +1,15 @@
 //! Corrected records as a document.
 
-use super::values::made_of;
-use super::{FACTOR, WaveformReport, figure, interval_of_trials, of_trials};
+use super::{FACTOR, WaveformReport, figure, interval_of_trials};
 use crate::document::{Block, Document};
 use crate::number::{exact, significant, with_uncertainty};
+use crate::observe::{shares, with_units};
 use crate::plain;
 use crate::printed::grouped;
 use crate::sheet::{Figure, Sheet};
-use gumption_signal::{Cutoff, LineResponse, LowPass, Truncation, Waveform, WaveformChannel};
+use gumption_signal::{
+    Cutoff, LineResponse, LowPass, Truncation, Waveform, WaveformChannel, WaveformSource,
+};
 
 /// Rows whose figures a page shows, at most.
 const MOST_FIGURES: usize = 40;
@@ -27,13 +29,7 @@ pub(super) fn of(found: &WaveformReport<'_>, terminal: bool) -> Document {
     };
     for (number, (values, waveforms)) in found.rows.iter().enumerate() {
         for (channel, of) in found.channels.iter().zip(waveforms) {
-            let conditions = found.conditions.iter().zip(values);
-            let at: Vec<String> = conditions
-                .map(|(of, value)| {
-                    let unit = if of.unit.text() == "1" { "" } else { of.unit.text() };
-                    format!("{} = {} {unit}", of.name, exact(*value)).trim_end().to_owned()
-                })
-                .collect();
+            let at = with_units(found.conditions, values);
             let at = if at.is_empty() { String::new() } else { format!(", {}", at.join(", ")) };
             document.section(plain(&format!("{}{at}", channel.name)));
             one(&mut document, found, channel, of);
@@ -92,6 +88,11 @@ fn one(
         ));
     }
     document.text(method(channel, of, found.unit(channel.channel)));
+}
+
+/// The sources of a standard uncertainty with a share of a percent and more, the largest first.
+fn made_of(contributions: &[(WaveformSource, f64)]) -> String {
+    shares(contributions.iter().map(|(source, u)| (source.name(), *u)))
 }
 
 /// What was done with the record.
@@ -159,10 +160,10 @@ fn quantities(found: &WaveformReport<'_>, channel: &WaveformChannel, of: &Wavefo
     sheet.figures("value", values);
     sheet.figures("u", uncertainties);
     sheet.units("unit", all().map(|of| found.unit_of(channel.channel, of)));
-    if all().any(|of| of_trials(of).is_some()) {
+    if all().any(|of| of.of_trials().is_some()) {
         sheet.figures(
             "u of the\ntrials",
-            all().map(|of| Figure::rounded(of_trials(of), |u| significant(u, 2))),
+            all().map(|of| Figure::rounded(of.of_trials().map(|[_, u]| u), |u| significant(u, 2))),
         );
         let interval = |of: &gumption_signal::QuantityFound| {
             let position = crate::number::position(of.standard_uncertainty(), 2);

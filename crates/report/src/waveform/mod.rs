@@ -79,22 +79,10 @@ impl WaveformReport<'_> {
     }
 }
 
-/// The standard deviation of the values of a figure in trials; none where there are fewer than two, or where a trial
-/// does not have the figure.
-fn of_trials(of: &QuantityFound) -> Option<f64> {
-    let n = of.trials.len();
-    if n < 2 || of.trials.iter().any(|value| !value.is_finite()) {
-        return None;
-    }
-    let mean = of.trials.iter().sum::<f64>() / n as f64;
-    let squares: f64 = of.trials.iter().map(|value| (value - mean) * (value - mean)).sum();
-    Some((squares / (n - 1) as f64).sqrt())
-}
-
 /// The probabilistically symmetric interval of the trials for 95 %; none for fewer than 100.
 fn interval_of_trials(of: &QuantityFound) -> Option<[f64; 2]> {
     let n = of.trials.len();
-    of_trials(of).filter(|_| n >= 100)?;
+    of.of_trials().filter(|_| n >= 100)?;
     // JCGM 101, 7.7: q of the n values lie within
     let within = (0.95 * n as f64 + 0.5).floor() as usize;
     let first = (n - within).div_ceil(2);

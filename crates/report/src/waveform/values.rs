@@ -1,9 +1,10 @@
 //! Corrected records for programs.
 
-use super::{FACTOR, WaveformReport, interval_of_trials, of_trials};
+use super::{FACTOR, WaveformReport, interval_of_trials};
 use crate::answer::{list, object, pretty};
 use crate::csv::{number, of_records};
-use gumption_signal::{QuantityFound, Waveform, WaveformSource};
+use crate::observe::heading;
+use gumption_signal::{QuantityFound, Waveform};
 use serde_json::Value;
 
 /// The records as JSON.
@@ -91,8 +92,7 @@ fn figure(of: &QuantityFound, unit: &str) -> Value {
             ("share", share.into()),
         ])
     });
-    let trials = of_trials(of).map_or(Value::Null, |u| {
-        let mean = of.trials.iter().sum::<f64>() / of.trials.len() as f64;
+    let trials = of.of_trials().map_or(Value::Null, |[mean, u]| {
         let interval = interval_of_trials(of).map_or(Value::Null, |[low, high]| list([low, high]));
         object([
             ("trials", Value::from(of.trials.len())),
@@ -114,9 +114,8 @@ fn figure(of: &QuantityFound, unit: &str) -> Value {
 /// One line for each sample of each row: the conditions, the instant, and for each channel its value, its standard
 /// uncertainty and the band of 95 %. A channel with other instants than the first one has its own column of these.
 pub fn csv(found: &WaveformReport<'_>) -> String {
-    let unit = |unit: &str| if unit == "1" { String::new() } else { format!(" [{unit}]") };
     let mut header: Vec<String> =
-        found.conditions.iter().map(|of| format!("{}{}", of.name, unit(of.unit.text()))).collect();
+        found.conditions.iter().map(|of| heading(&of.name, of.unit.text())).collect();
     // in every row the same channels share their instants
     let owns_time: Vec<bool> = (0..found.channels.len())
         .map(|at| {
@@ -131,11 +130,12 @@ pub fn csv(found: &WaveformReport<'_>) -> String {
         })
         .collect();
     for (at, channel) in found.channels.iter().enumerate() {
-        let (name, of) = (&channel.name, unit(found.unit(channel.channel)));
+        let (name, unit) = (&channel.name, found.unit(channel.channel));
         if owns_time[at] {
             header.push(if at == 0 { "t [s]".to_owned() } else { format!("t_{name} [s]") });
         }
-        header.extend(["", "u_", "low_", "high_"].map(|prefix| format!("{prefix}{name}{of}")));
+        let names = ["", "u_", "low_", "high_"].map(|prefix| format!("{prefix}{name}"));
+        header.extend(names.map(|name| heading(&name, unit)));
     }
     of_records(|writer| {
         writer.write_record(&header)?;
@@ -159,19 +159,4 @@ pub fn csv(found: &WaveformReport<'_>) -> String {
         }
         Ok(())
     })
-}
-
-/// The sources of a figure's standard uncertainty with a share of a percent and more, the largest first.
-pub(super) fn made_of(contributions: &[(WaveformSource, f64)]) -> String {
-    let total: f64 = contributions.iter().map(|(_, u)| u * u).sum();
-    let mut shares: Vec<(&str, f64)> = contributions
-        .iter()
-        .map(|(source, u)| (source.name(), 100.0 * u * u / total))
-        .filter(|(_, share)| *share >= 1.0)
-        .collect();
-    gumption_engine::number::largest_first(&mut shares, |share| share.1);
-    let words = shares
-        .iter()
-        .map(|(name, share)| format!("{name} {} %", crate::number::rounded(*share, 0)));
-    words.collect::<Vec<String>>().join(", ")
 }

@@ -36,12 +36,7 @@ pub fn notes(channel: &WaveformChannel, of: &Waveform) -> Vec<Fact> {
             notes.push(fact!("waveform-quantity-missing", name, figure, missing, trials = n));
             continue;
         }
-        if n < 100 {
-            continue;
-        }
-        let centre = quantity.trials.iter().sum::<f64>() / n as f64;
-        let squares: f64 = quantity.trials.iter().map(|v| (v - centre) * (v - centre)).sum();
-        let drawn = (squares / (n - 1) as f64).sqrt();
+        let Some([_, drawn]) = quantity.of_trials().filter(|_| n >= 100) else { continue };
         let stated = quantity.standard_uncertainty();
         if (drawn - stated).abs() > METHODS * stated {
             let (drawn, stated) = (short(drawn, 2), short(stated, 2));

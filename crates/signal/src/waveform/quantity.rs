@@ -106,6 +106,18 @@ impl QuantityFound {
     pub fn standard_uncertainty(&self) -> f64 {
         self.contributions.iter().map(|(_, u)| u * u).sum::<f64>().sqrt()
     }
+
+    /// The mean of its values in the trials and their standard deviation; none where there are fewer than two, or where
+    /// a trial does not have the figure.
+    pub fn of_trials(&self) -> Option<[f64; 2]> {
+        let n = self.trials.len();
+        if n < 2 || self.trials.iter().any(|value| !value.is_finite()) {
+            return None;
+        }
+        let mean = self.trials.iter().sum::<f64>() / n as f64;
+        let squares: f64 = self.trials.iter().map(|value| (value - mean) * (value - mean)).sum();
+        Some([mean, (squares / (n - 1) as f64).sqrt()])
+    }
 }
 
 /// The ratio of a channel's greatest value to another's, whose errors are independent of its own.

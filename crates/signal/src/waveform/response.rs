@@ -5,7 +5,7 @@ use std::sync::Arc;
 
 use super::errors::LineErrors;
 use super::spectrum::Lines;
-use crate::phasor::{angle, at_turns, modulus, wrapped};
+use crate::phasor::{at_turns, wrapped};
 use crate::{Measured, Phasor};
 use gumption_engine::linalg::Eigen;
 use nalgebra::DMatrix;
@@ -347,18 +347,6 @@ impl CalibratedResponse {
             }
         }
         self.inverse(&values, lines)
-    }
-
-    /// The response at a frequency in hertz: modulus and phase in radians; the nearest point beyond the points.
-    pub fn at(&self, hertz: f64) -> [f64; 2] {
-        let last = self.frequencies.len().saturating_sub(1);
-        let point = self.frequencies.partition_point(|known| *known <= hertz).saturating_sub(1);
-        let share = match (self.frequencies.get(point), self.frequencies.get(point + 1)) {
-            (Some(from), Some(to)) if point < last && hertz > *from => (hertz - from) / (to - from),
-            _ => 0.0,
-        };
-        let found = self.phasor(self.coordinates_at(&self.values, Place { point, share }));
-        [modulus(found), angle(found)]
     }
 }
 
