@@ -43,6 +43,7 @@ pub(super) fn read(
         by_name,
         found,
         pairs: HashSet::new(),
+        in_matrix: vec![false; inputs.variables.len()],
         places,
         from_certificates: usize::MAX,
     };
@@ -81,7 +82,10 @@ struct CorrelationsReader<'a> {
     rows: &'a ConditionRows<'a>,
     by_name: HashMap<&'a str, usize>,
     found: Vec<Correlation>,
+    /// The pairs with a coefficient, apart from those of the matrix.
     pairs: HashSet<(usize, usize)>,
+    /// The variables of the matrix, every two of which have one.
+    in_matrix: Vec<bool>,
     places: Vec<Range<usize>>,
     /// From which of `found` on they are those of certificates.
     from_certificates: usize,
@@ -99,7 +103,7 @@ impl CorrelationsReader<'_> {
                 let pair = (self.by_name.get(first.as_str()), self.by_name.get(second.as_str()));
                 let ((Some(&i), Some(&j)), Some(r)) = (pair, a.correlation(b)) else { continue };
                 let pair = (i.min(j), i.max(j));
-                if r == 0.0 || !self.pairs.insert(pair) {
+                if r == 0.0 || self.is_in_matrix(pair) || !self.pairs.insert(pair) {
                     continue;
                 }
                 let (first_index, second_index) = pair;
@@ -125,7 +129,8 @@ impl CorrelationsReader<'_> {
         for (place, &(second, b)) in constants.iter().enumerate() {
             for &(first, a) in constants.iter().take(place) {
                 let r = a.correlation(b);
-                if r == 0.0 || !self.pairs.insert((first, second)) {
+                let pair = (first, second);
+                if r == 0.0 || self.is_in_matrix(pair) || !self.pairs.insert(pair) {
                     continue;
                 }
                 self.found.push(Correlation { first, second, coefficient: r });
@@ -204,24 +209,42 @@ impl CorrelationsReader<'_> {
         None
     }
 
+    fn is_in_matrix(&self, (a, b): (usize, usize)) -> bool {
+        self.in_matrix.get(a) == Some(&true) && self.in_matrix.get(b) == Some(&true)
+    }
+
     fn add(&mut self, a: usize, b: usize, r: f64, span: &Range<usize>) {
+        let pair = (a.min(b), a.max(b));
+        if let Some(mistake) = self.mistake(pair, r) {
+            self.log.report(span, mistake);
+        } else {
+            self.pairs.insert(pair);
+            self.push(pair, r, span);
+        }
+    }
+
+    fn push(&mut self, (first, second): (usize, usize), coefficient: f64, span: &Range<usize>) {
+        self.found.push(Correlation { first, second, coefficient });
+        self.places.push(span.clone());
+    }
+
+    /// Why two variables, in order, cannot have this coefficient.
+    fn mistake(&self, pair: (usize, usize), r: f64) -> Option<DiagnosticKind> {
+        let (first, second) = pair;
         let name = |v: usize| self.inputs.variables.get(v).map_or("", |v| v.name.as_str());
         let reason = if !(-1.0..=1.0).contains(&r) {
             format!("the correlation coefficient is {r}, but must be from -1 to 1")
-        } else if a == b {
-            format!("`{}` is correlated with itself", name(a))
-        } else if links::is_linked(self.inputs, a, b) {
-            let (first, second) = (name(a).to_owned(), name(b).to_owned());
-            self.log.report(span, DiagnosticKind::SavedCorrelation { first, second });
-            return;
-        } else if !self.pairs.insert((a.min(b), a.max(b))) {
-            format!("the correlation of `{}` and `{}` is given twice", name(a), name(b))
+        } else if first == second {
+            format!("`{}` is correlated with itself", name(first))
+        } else if links::is_linked(self.inputs, first, second) {
+            let (first, second) = (name(first).to_owned(), name(second).to_owned());
+            return Some(DiagnosticKind::SavedCorrelation { first, second });
+        } else if self.pairs.contains(&pair) {
+            format!("the correlation of `{}` and `{}` is given twice", name(first), name(second))
         } else {
-            self.found.push(Correlation { first: a.min(b), second: a.max(b), coefficient: r });
-            self.places.push(span.clone());
-            return;
+            return None;
         };
-        self.log.report(span, DiagnosticKind::Correlation { reason });
+        Some(DiagnosticKind::Correlation { reason })
     }
 
     fn matrix(
@@ -300,10 +323,16 @@ impl CorrelationsReader<'_> {
             names.iter().zip(spans).map(|(name, span)| self.variable(name, span)).collect();
         for (j, b) in places.iter().enumerate() {
             for (i, a) in places.iter().enumerate().take(j) {
-                if let (Some(a), Some(b)) = (a, b) {
-                    self.add(*a, *b, entry(i, j), place);
+                let (Some(&a), Some(&b)) = (a.as_ref(), b.as_ref()) else { continue };
+                let pair = (a.min(b), a.max(b));
+                match self.mistake(pair, entry(i, j)) {
+                    Some(mistake) => self.log.report(place, mistake),
+                    None => self.push(pair, entry(i, j), place),
                 }
             }
+        }
+        for variable in places.into_iter().flatten() {
+            self.in_matrix[variable] = true;
         }
     }
 

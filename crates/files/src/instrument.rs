@@ -59,10 +59,8 @@ pub(super) fn check(object: &Object<'_>, kind: &FileShape, unit: &Unit) {
                 .is_ok_and(|text| read(&text, &stated) != read(&text, &without))
         });
         let Some(member) = object.get(key).filter(|_| !is_used) else { continue };
-        let found = match &member.value.value {
-            Json::Number(text) | Json::Text(text) => text.clone(),
-            other => other.kind().to_owned(),
-        };
+        let value = &member.value.value;
+        let found = value.written().unwrap_or_else(|| value.kind()).to_owned();
         let instead = match key {
             "resolution" => {
                 "the uncertainty of a display's step is a component of its own, rectangular with half \

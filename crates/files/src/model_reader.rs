@@ -1,10 +1,7 @@
 //! The reader of model files and of the cases that are model files with observations.
 //!
-//! A file is parsed twice. `serde_json` alone decides whether a text is JSON, so that what is
-//! accepted here is what every other program accepts; but it keeps no places. `jsonc-parser` gives
-//! each key and value its span of bytes; but it would also take comments and trailing commas. The
-//! tree of the second, once the first has accepted the text, is what all readers go through
-//! (`json.rs`).
+//! `serde_json` alone decides whether a text is JSON, so that what is accepted here is what every other
+//! program accepts. Its parts of the text give each key and value its span of bytes (`json.rs`).
 //!
 //! A mistake does not end the reading: it is reported at its span, the reader goes on with what is
 //! left, and a file is accepted where nothing was reported. What depends on something unreadable is

@@ -6,7 +6,7 @@ use std::path::Path;
 use std::sync::Arc;
 
 use super::keys;
-use gumption_text::json::{self, Json, Member, Node};
+use gumption_text::json::{self, Member, Node};
 use gumption_text::object::Object;
 use gumption_text::{Collector, DiagnosticKind, Diagnostics, SourceText, bytes};
 
@@ -100,10 +100,8 @@ pub(super) fn check_format(root: &Object<'_>, newest: f64) -> bool {
     let Some(member) = root.get("format").filter(|member| !known(member)) else {
         return true;
     };
-    let found = match &member.value.value {
-        Json::Number(text) | Json::Text(text) => text.clone(),
-        other => other.kind().to_owned(),
-    };
+    let value = &member.value.value;
+    let found = value.written().unwrap_or_else(|| value.kind()).to_owned();
     root.log.report(&member.value.span, DiagnosticKind::UnknownFormat { found });
     false
 }

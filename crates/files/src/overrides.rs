@@ -230,7 +230,7 @@ pub(super) fn apply(log: &Collector, root: &mut Node, overrides: &[Override]) {
         }
         let finite = replaced.value.parse::<f64>().is_ok_and(f64::is_finite);
         let value = if finite {
-            Json::Number(replaced.value.clone())
+            Json::Number(replaced.value.as_str().into())
         } else {
             Json::Text(replaced.value.clone())
         };
@@ -313,7 +313,7 @@ fn listed_values(text: &str) -> Result<Vec<Json>, String> {
     let cells: Vec<Cow<'_, str>> = cells.collect::<Result<_, _>>()?;
     let is_number = |cell: &Cow<'_, str>| cell.parse::<f64>().is_ok_and(f64::is_finite);
     if cells.iter().all(is_number) {
-        return Ok(cells.into_iter().map(|cell| Json::Number(cell.into_owned())).collect());
+        return Ok(cells.into_iter().map(|cell| Json::Number(cell.into())).collect());
     }
     let of_unit = |cell: &Cow<'_, str>| with_unit(cell).is_some();
     let (last, others) = cells.split_last().unwrap_or((&Cow::Borrowed(""), &[]));
@@ -351,7 +351,8 @@ fn override_condition(log: &Collector, root: &mut Node, replaced: &Override) -> 
     match replaced.value_of_file(&unit, log) {
         Ok(value) => {
             let span = values.span.clone();
-            values.value = Json::List(vec![Node { span, value: Json::Number(value.to_string()) }]);
+            values.value =
+                Json::List(vec![Node { span, value: Json::Number(value.to_string().into()) }]);
         }
         Err(diagnostic) => log.report(&values.span, diagnostic),
     }
@@ -405,7 +406,7 @@ mod tests {
             let list = listed_values(text)?;
             Ok::<_, String>(list.iter().map(|value| format!("{value:?}")).collect::<Vec<_>>())
         };
-        let number = |text: &str| format!("{:?}", Json::Number(text.to_owned()));
+        let number = |text: &str| format!("{:?}", Json::Number(text.into()));
         let text = |text: &str| format!("{:?}", Json::Text(text.to_owned()));
         assert_eq!(read("5.01, 5.02").unwrap(), [number("5.01"), number("5.02")]);
         assert_eq!(read("5,01; 5,02").unwrap(), [number("5.01"), number("5.02")]);

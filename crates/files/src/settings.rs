@@ -87,7 +87,7 @@ fn trials(object: &Object<'_>) -> Option<Trials> {
             let count = whole_number(text).filter(|&n| n != 1 && n <= MOST_TRIALS);
             if count.is_none() {
                 let diagnostic =
-                    DiagnosticKind::NotTrials { found: text.clone(), most: MOST_TRIALS };
+                    DiagnosticKind::NotTrials { found: text.to_string(), most: MOST_TRIALS };
                 object.log.report(&member.value.span, diagnostic);
             }
             count.map(Trials::Fixed)

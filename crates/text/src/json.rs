@@ -1,13 +1,11 @@
-//! JSON with positions: `serde_json` decides what is JSON, `jsonc-parser` gives the position of
-//! each value.
+//! JSON with positions: each value is a part of the text, and where the part begins is its position.
 
 use std::fmt;
 use std::ops::Range;
 
-use jsonc_parser::ast;
-use jsonc_parser::common::Ranged;
-use jsonc_parser::{CollectOptions, ParseOptions, parse_to_ast};
+use compact_str::CompactString;
 use serde::de::{Deserialize, Deserializer, MapAccess, SeqAccess, Visitor};
+use serde_json::value::RawValue;
 
 use super::DiagnosticKind;
 use super::source::SourceText;
@@ -29,7 +27,7 @@ pub enum Json {
     /// `true` or `false`.
     Bool(bool),
     /// A number as it is written.
-    Number(String),
+    Number(CompactString),
     /// A text without its quotation marks.
     Text(String),
     /// The elements of a list.
@@ -50,6 +48,15 @@ pub struct Member {
 }
 
 impl Json {
+    /// A number or a text as it is written.
+    pub fn written(&self) -> Option<&str> {
+        match self {
+            Self::Number(text) => Some(text),
+            Self::Text(text) => Some(text),
+            _ => None,
+        }
+    }
+
     /// What it is, in words.
     pub fn kind(&self) -> &'static str {
         match self {
@@ -95,25 +102,9 @@ pub fn parse(source: &SourceText) -> Result<Node, (Range<usize>, DiagnosticKind)
     if let Err(error) = serde_json::from_str::<Checked>(&source.text) {
         return Err(mistake(source, &error));
     }
-    let strict = ParseOptions {
-        allow_comments: false,
-        allow_loose_object_property_names: false,
-        allow_trailing_commas: false,
-        allow_missing_commas: false,
-        allow_single_quoted_strings: false,
-        allow_hexadecimal_numbers: false,
-        allow_unary_plus_numbers: false,
-        allow_bare_decimal_point_numbers: false,
-        allow_non_finite_numbers: false,
-        allow_extended_string_escapes: false,
-    };
-    let parsed = parse_to_ast(&source.text, &CollectOptions::default(), &strict);
-    match parsed.map(|parsed| parsed.value) {
-        Ok(Some(value)) => Ok(node(value)),
-        Ok(None) => Err((0..0, DiagnosticKind::Empty)),
-        // both parsers are strict, so this is not expected
-        Err(error) => Err((0..0, DiagnosticKind::NotJson { message: error.to_string() })),
-    }
+    let whole = serde_json::from_str(&source.text).and_then(|raw| node(&source.text, raw));
+    // it was checked, so this is not expected
+    whole.map_err(|error| mistake(source, &error))
 }
 
 /// A value that accepts any JSON and keeps nothing.
@@ -278,28 +269,64 @@ fn in_plain_words(message: &str, found: Option<char>, before: &str) -> String {
     words.to_owned()
 }
 
-fn node(value: ast::Value<'_>) -> Node {
-    let range = value.range();
-    let span = range.start..range.end;
-    let value = match value {
-        ast::Value::NullKeyword(_) => Json::Null,
-        ast::Value::BooleanLit(lit) => Json::Bool(lit.value),
-        ast::Value::NumberLit(lit) => Json::Number(lit.value.to_owned()),
-        ast::Value::StringLit(lit) => Json::Text(lit.value.into_owned()),
-        ast::Value::Array(array) => Json::List(array.elements.into_iter().map(node).collect()),
-        ast::Value::Object(object) => {
-            Json::Object(object.properties.into_iter().map(member).collect())
+/// The value that is `raw`, a part of the text.
+fn node(text: &str, raw: &RawValue) -> serde_json::Result<Node> {
+    let own = raw.get();
+    let value = match own.as_bytes().first() {
+        Some(b'n') => Json::Null,
+        Some(b't' | b'f') => Json::Bool(own == "true"),
+        Some(b'"') => Json::Text(serde_json::from_str(own)?),
+        Some(b'[') => {
+            let elements: Vec<&RawValue> = serde_json::from_str(own)?;
+            let mut list = Vec::with_capacity(elements.len());
+            for raw in elements {
+                list.push(node(text, raw)?);
+            }
+            Json::List(list)
         }
+        Some(b'{') => {
+            let Members(members) = serde_json::from_str(own)?;
+            let member = |(key, value): (&RawValue, &RawValue)| {
+                Ok(Member {
+                    key_span: place(text, key),
+                    key: serde_json::from_str(key.get())?,
+                    value: node(text, value)?,
+                })
+            };
+            Json::Object(members.into_iter().map(member).collect::<Result<_, _>>()?)
+        }
+        _ => Json::Number(own.into()),
     };
-    Node { span, value }
+    Ok(Node { span: place(text, raw), value })
 }
 
-fn member(property: ast::ObjectProp<'_>) -> Member {
-    let key_range = property.name.range();
-    Member {
-        key_span: key_range.start..key_range.end,
-        key: property.name.into_string(),
-        value: node(property.value),
+/// The half-open range of bytes of a part of the text.
+fn place(text: &str, part: &RawValue) -> Range<usize> {
+    let start = part.get().as_ptr().addr() - text.as_ptr().addr();
+    start..start + part.get().len()
+}
+
+/// The keys and values of an object as they are written, in the order of the text.
+struct Members<'t>(Vec<(&'t RawValue, &'t RawValue)>);
+
+impl<'de> Deserialize<'de> for Members<'de> {
+    fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
+        deserializer.deserialize_map(Self(Vec::new()))
+    }
+}
+
+impl<'de> Visitor<'de> for Members<'de> {
+    type Value = Self;
+
+    fn expecting(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str("an object")
+    }
+
+    fn visit_map<A: MapAccess<'de>>(mut self, mut map: A) -> Result<Self, A::Error> {
+        while let Some(member) = map.next_entry()? {
+            self.0.push(member);
+        }
+        Ok(self)
     }
 }
 

@@ -89,7 +89,7 @@ fn quantity(log: &Collector, name: &str, node: &mut Node, input_unit: Option<&st
     match &mut node.value {
         Json::Number(number) => {
             let number = number.clone();
-            node.value = Json::Object(members(&node.span, None, Stated::Exact(number)));
+            node.value = Json::Object(members(&node.span, None, Stated::Exact(number.into())));
         }
         Json::Text(text) => {
             let read = stated(text);
@@ -109,7 +109,7 @@ fn quantity(log: &Collector, name: &str, node: &mut Node, input_unit: Option<&st
             let span = fields[place].value.span.clone();
             let own = unit_of(fields).or_else(|| input_unit.map(str::to_owned));
             let found = match &fields[place].value.value {
-                Json::Number(number) => Some((String::new(), Stated::Exact(number.clone()))),
+                Json::Number(number) => Some((String::new(), Stated::Exact(number.to_string()))),
                 Json::Text(text) => {
                     let read = stated(text).and_then(|(unit, stated)| {
                         let declared = own.as_deref().unwrap_or(&unit);
@@ -138,7 +138,7 @@ fn quantity(log: &Collector, name: &str, node: &mut Node, input_unit: Option<&st
                     let own = own.as_deref().filter(|_| !is_place);
                     member.value.value = match own.and_then(|own| counted_in(number, &behind, own))
                     {
-                        Some(number) => Json::Number(number),
+                        Some(number) => Json::Number(number.into()),
                         None => Json::Text(format!("{number}{behind}")),
                     };
                 }
@@ -199,7 +199,7 @@ fn members(span: &Range<usize>, unit: Option<String>, stated: Stated) -> Vec<Mem
         value: Node { span: span.clone(), value },
     };
     let text = |key: &str, value: &str| member(key, Json::Text(value.to_owned()));
-    let number = |key: &str, value: String| member(key, Json::Number(value));
+    let number = |key: &str, value: String| member(key, Json::Number(value.into()));
     let mut made: Vec<Member> =
         unit.filter(|unit| !unit.is_empty()).map(|unit| text("unit", &unit)).into_iter().collect();
     made.extend(match stated {
@@ -281,7 +281,7 @@ pub fn written_out(text: &str) -> Option<Vec<(String, String)>> {
     };
     let written = members.into_iter().filter_map(|member| match member.value.value {
         Json::Text(value) => Some((member.key, value)),
-        Json::Number(value) => Some((member.key, plain(value))),
+        Json::Number(value) => Some((member.key, plain(value.into()))),
         _ => None,
     });
     Some(written.collect())

@@ -248,7 +248,7 @@ impl<'a> Object<'a> {
         if whole.is_none() {
             self.log.report(
                 &member.value.span,
-                DiagnosticKind::NotWhole { key: key.into(), found: text.clone(), least, most },
+                DiagnosticKind::NotWhole { key: key.into(), found: text.to_string(), least, most },
             );
         }
         whole

@@ -111,9 +111,10 @@ impl CorrelationMatrix {
         // the square root of an eigenvalue that is zero apart from rounding would be far above
         // rounding
         let zero = 4.0 * f64::EPSILON * self.size() as f64;
-        let root = |e: f64| if e > zero { e.sqrt() } else { 0.0 };
-        let scaled: Vec<(f64, &[f64])> = eigen.pairs().map(|(e, q)| (root(e), q)).collect();
-        let mut basis: Vec<Vec<f64>> = Vec::new();
+        let above = eigen.pairs().filter(|(e, _)| *e > zero);
+        let scaled: Vec<(f64, &[f64])> = above.map(|(e, q)| (e.sqrt(), q)).collect();
+        // of a row that depends on the ones before it there is no direction
+        let mut basis: Vec<Option<Vec<f64>>> = Vec::new();
         let mut factor: Vec<f64> = Vec::with_capacity(packed::triangle(self.size()));
         for i in 0..self.size() {
             let mut rest: Vec<f64> = scaled.iter().map(|(root, q)| q[i] * root).collect();
@@ -121,6 +122,7 @@ impl CorrelationMatrix {
             // twice is enough: the second pass removes the rounding of the first one
             for _ in 0..2 {
                 for (entry, unit) in row.iter_mut().zip(&basis) {
+                    let Some(unit) = unit else { continue };
                     let along = dot(&rest, unit);
                     *entry += along;
                     add_multiple(&mut rest, -along, unit);
@@ -129,8 +131,7 @@ impl CorrelationMatrix {
             let norm = dot(&rest, &rest).sqrt();
             let independent = norm > 1e-9;
             row.push(if independent { norm } else { 0.0 });
-            let unit = |a: &f64| if independent { a / norm } else { 0.0 };
-            basis.push(rest.iter().map(unit).collect());
+            basis.push(independent.then(|| rest.iter().map(|a| a / norm).collect()));
             let length = dot(&row, &row).sqrt();
             factor.extend(row.iter().map(|a| a / length));
         }

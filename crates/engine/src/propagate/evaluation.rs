@@ -24,6 +24,7 @@ use super::nonlinearity;
 use super::regions::regions;
 use super::second_order::second_order;
 use super::statement::Stated;
+use super::trial_work::trial_work;
 use super::validate::{Validation, validate};
 use super::{quasi, rounding};
 use crate::distribution::{BLOCK, Distribution, Joint};
@@ -579,8 +580,8 @@ pub(super) fn goes_on(
 ) -> Option<u64> {
     let settings = &task.settings;
     // what is kept of the trials grows with the outputs as well
-    let kept = task.rows.len().max(1) * task.model.outputs.len().max(1);
-    let most = settings.decide_up_to / kept as u64;
+    let of_a_trial = trial_work(task).max(task.model.outputs.len() as u64);
+    let most = settings.decide_up_to / of_a_trial / task.rows.len().max(1) as u64;
     let further = count.saturating_mul(FURTHER);
     if settings.trials != Trials::Fixed(Settings::USUAL_TRIALS) || further > most {
         return None;

@@ -32,6 +32,7 @@ mod rounding;
 mod second_order;
 mod shortest;
 mod statement;
+mod trial_work;
 pub mod validate;
 mod warnings;
 mod whole_turns;

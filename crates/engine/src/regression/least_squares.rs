@@ -59,6 +59,20 @@ pub(super) fn solve(
     Ok(())
 }
 
+/// Replaces b by the solution of R'R x = b.
+pub(super) fn solve_normal(triangle: &[f64], b: &mut [f64]) {
+    let count = b.len();
+    for k in 0..count {
+        let known: f64 = (0..k).map(|j| triangle[j * count + k] * b[j]).sum();
+        b[k] = (b[k] - known) / triangle[k * count + k];
+    }
+    for k in (0..count).rev() {
+        let row = &triangle[k * count..(k + 1) * count];
+        let known: f64 = (k + 1..count).map(|j| row[j] * b[j]).sum();
+        b[k] = (b[k] - known) / row[k];
+    }
+}
+
 /// The inverse of R'R, row by row.
 pub(super) fn inverse_of_normal(triangle: &[f64], count: usize) -> Vec<f64> {
     // the inverse of R, also upper triangular

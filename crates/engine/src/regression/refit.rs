@@ -11,7 +11,7 @@ use super::result::Regression;
 use crate::distribution::{Normal, Stream};
 use crate::number::{COLUMN, Column};
 
-/// A trial's fit ends when a step changes nothing by more than this fraction of a standard
+/// A trial's fit ends when further steps would change nothing by more than this fraction of a standard
 /// uncertainty, which no number of trials can resolve.
 const TOLERANCE: f64 = 1e-7;
 
@@ -60,6 +60,7 @@ impl Refit {
         normals.iter_mut().for_each(|column| Normal::standard_draw(stream, column));
         let factors = self.factors(stream);
         let (mut solver, powers) = (fit.solver(), fit.powers());
+        let near = solver.linearized(&fit.inner.estimates, points, TOLERANCE);
         let mut drawn = vec![0.0; in_x + n];
         let (mut x, mut y) = (points.x.clone(), points.y.clone());
         for (trial, factor) in factors.into_iter().enumerate() {
@@ -74,10 +75,11 @@ impl Refit {
             for (i, scatter) in of_x.iter().enumerate() {
                 x[i] = points.x[i] + factor * scatter;
             }
-            solver.parameters.clone_from(&fit.inner.estimates);
-            let found = match solver.fit(&x, &y, TOLERANCE) {
-                Ok(_) => fit.outer(&solver.parameters, &powers),
-                Err(_) => vec![f64::NAN; fit.count()],
+            let fitted =
+                near.as_ref().is_ok_and(|near| solver.fit_near(near, &x, &y, TOLERANCE).is_ok());
+            let found = match fitted {
+                true => fit.outer(&solver.parameters, &powers),
+                false => vec![f64::NAN; fit.count()],
             };
             for (&member, &parameter) in self.members.iter().zip(&self.parameters) {
                 registers[register[member]].0[trial] = found[parameter];

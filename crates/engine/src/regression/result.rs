@@ -291,6 +291,18 @@ impl Regression {
         matches!(self.curve, Curve::Polynomial { .. }) && self.points.is_exact_in_x()
     }
 
+    /// The operations of a trial's fit, roughly: in each of some steps the curve and its derivatives at
+    /// every point, and the whitened equations.
+    pub(crate) fn operations(&self) -> u64 {
+        const STEPS: usize = 3;
+        const OF_A_POLYNOMIAL: usize = 20;
+        let curve = match &self.curve {
+            Curve::Polynomial { .. } => OF_A_POLYNOMIAL,
+            Curve::Program(program) => OF_A_POLYNOMIAL * program.operations().max(1),
+        };
+        (STEPS * curve * self.count() * self.points.len()) as u64
+    }
+
     /// The working memory for fits to other points with the same uncertainty.
     pub(super) fn solver(&self) -> Solver<'_> {
         let basis = basis_of(&self.curve, self.inner.basis);

@@ -8,11 +8,14 @@
 //! covariance matrix of the parameters is the inverse of A' S^-1 A, where A holds the derivatives
 //! with respect to the parameters (ISO/TS 28037, clauses 6 to 10 are cases of it).
 
+use std::sync::Arc;
+
 use super::chebyshev::Chebyshev;
 use super::curve::Differentiated;
 use super::error::RegressionError;
 use super::least_squares::{self, Solution};
 use super::points::{Noise, Points, Root};
+use crate::linalg::dot;
 
 /// The basis of the parameters.
 #[derive(Clone, Debug)]
@@ -60,7 +63,35 @@ pub(super) struct Solver<'p> {
     slopes: Vec<f64>,
     /// Derivatives at a point, of the real part first.
     each: [Vec<f64>; 2],
-    root: Option<Root>,
+    /// Of each misfit that is independent of the others, unless all weigh alike.
+    weights: Vec<f64>,
+    /// The root of the covariance matrix of misfits with a full one.
+    root: Option<Arc<Root>>,
+}
+
+/// A fit's linearization, from which fits to points near its own begin.
+#[derive(Debug)]
+pub(super) struct Linearized {
+    parameters: Vec<f64>,
+    /// Ordinates less misfits, at an abscissa of 0: a misfit is linear in the coordinates.
+    offsets: Vec<f64>,
+    slopes: Vec<f64>,
+    derivatives: Vec<f64>,
+    whitened: Vec<f64>,
+    weights: Vec<f64>,
+    root: Option<Arc<Root>>,
+    /// The root of the normal equations.
+    triangle: Vec<f64>,
+}
+
+/// When a fit ends.
+#[derive(Clone, Copy, Debug)]
+enum End {
+    /// After a step that changes nothing by more than this number of standard uncertainties.
+    Step(f64),
+    /// When what further steps would still change is below this number of standard uncertainties:
+    /// each step is the same fraction of the one before, so that the rest is a geometric series.
+    Rest(f64),
 }
 
 impl<'p> Solver<'p> {
@@ -85,6 +116,7 @@ impl<'p> Solver<'p> {
             white_misfits: Vec::new(),
             slopes: Vec::new(),
             each: [vec![0.0; count], vec![0.0; count]],
+            weights: Vec::new(),
             root: None,
         }
     }
@@ -112,19 +144,99 @@ impl<'p> Solver<'p> {
     ) -> Result<f64, RegressionError> {
         self.abscissae.clear();
         self.abscissae.extend_from_slice(x);
+        self.iterate(x, y, End::Step(tolerance))
+    }
+
+    /// The same near a fit, from its linearization. Iteration ends when further steps would change
+    /// nothing by more than `tolerance` standard uncertainties.
+    pub(super) fn fit_near(
+        &mut self,
+        fit: &Linearized,
+        x: &[f64],
+        y: &[f64],
+        tolerance: f64,
+    ) -> Result<f64, RegressionError> {
+        self.begin(fit, x, y);
+        self.iterate(x, y, End::Rest(tolerance))
+    }
+
+    /// The linearization of the fit to these points, given its parameters.
+    pub(super) fn linearized(
+        &mut self,
+        parameters: &[f64],
+        Points { x, y, .. }: &Points,
+        tolerance: f64,
+    ) -> Result<Linearized, RegressionError> {
+        self.parameters.clear();
+        self.parameters.extend_from_slice(parameters);
+        self.fit(x, y, tolerance)?;
+        self.linearize(x, y)?;
+        self.whiten()?;
+        let whitened = self.whitened.clone();
+        self.solve()?;
+        let points = x.iter().zip(y).zip(&self.misfits).zip(&self.slopes);
+        Ok(Linearized {
+            parameters: self.parameters.clone(),
+            offsets: points.map(|(((x, y), misfit), slope)| y - misfit - slope * x).collect(),
+            slopes: self.slopes.clone(),
+            derivatives: self.derivatives.clone(),
+            whitened,
+            weights: self.weights.clone(),
+            root: self.root.clone(),
+            triangle: self.solution.triangle.clone(),
+        })
+    }
+
+    /// Parameters and abscissae of the linearized fit to these points.
+    fn begin(&mut self, fit: &Linearized, x: &[f64], y: &[f64]) {
+        self.slopes.clone_from(&fit.slopes);
+        self.derivatives.clone_from(&fit.derivatives);
+        self.weights.clone_from(&fit.weights);
+        self.root.clone_from(&fit.root);
+        let points = x.iter().zip(y).zip(&fit.offsets).zip(&fit.slopes);
+        self.misfits.clear();
+        self.misfits.extend(points.map(|(((x, y), offset), slope)| y - offset - slope * x));
+        let mut white = std::mem::take(&mut self.white_misfits);
+        white.clone_from(&self.misfits);
+        self.whiten_column(&mut white);
+        self.solution.parameters.clear();
+        let columns = fit.whitened.chunks_exact(white.len().max(1));
+        self.solution.parameters.extend(columns.map(|column| dot(column, &white)));
+        least_squares::solve_normal(&fit.triangle, &mut self.solution.parameters);
+        self.white_misfits = white;
+        let steps = fit.parameters.iter().zip(&self.solution.parameters);
+        self.parameters.clear();
+        self.parameters.extend(steps.map(|(parameter, step)| parameter + step));
+        self.abscissae.clear();
+        self.abscissae.extend_from_slice(x);
+        if !self.is_exact_in_x() {
+            self.correct_abscissae(x);
+        }
+    }
+
+    /// Solves the whitened equations.
+    fn solve(&mut self) -> Result<(), RegressionError> {
+        least_squares::solve(
+            &mut self.whitened,
+            &mut self.white_misfits,
+            DEPENDENT,
+            &mut self.solution,
+        )
+        .map_err(|parameter| RegressionError::Dependent { parameter })
+    }
+
+    fn iterate(&mut self, x: &[f64], y: &[f64], end: End) -> Result<f64, RegressionError> {
         let (mut steps, linear) = (0, self.is_linear());
+        // the steps before, of parameters and of abscissae
+        let (mut before, mut before_in_x) = (0.0, 0.0);
         loop {
             self.linearize(x, y)?;
             self.whiten()?;
-            least_squares::solve(
-                &mut self.whitened,
-                &mut self.white_misfits,
-                DEPENDENT,
-                &mut self.solution,
-            )
-            .map_err(|parameter| RegressionError::Dependent { parameter })?;
+            self.solve()?;
             let squares = self.left();
-            let ends = self.is_small(squares, tolerance) || self.meets(y);
+            let (moved, scale) = (self.moved(), self.scale(squares));
+            let ends = end.is_reached(moved, before, scale) || self.is_rounding() || self.meets(y);
+            before = moved;
             for (parameter, step) in self.parameters.iter_mut().zip(&self.solution.parameters) {
                 *parameter += step;
             }
@@ -141,9 +253,10 @@ impl<'p> Solver<'p> {
                 // constant parameters mean nothing while the abscissae still move: the first step,
                 // from a curve without slope, leaves them at the measured values
                 let moved = self.correct_abscissae(x);
-                if ends && steps > 1 && moved <= tolerance * self.scale(squares) {
+                if ends && steps > 1 && end.is_reached(moved, before_in_x, scale) {
                     return Ok(squares);
                 }
+                before_in_x = moved;
             }
         }
     }
@@ -159,16 +272,17 @@ impl<'p> Solver<'p> {
         if self.estimated { (squares / spare).sqrt() } else { 1.0 }
     }
 
-    /// Whether the last step is small: in standard uncertainties, or at the rounding of the
-    /// parameters.
-    fn is_small(&self, squares: f64, tolerance: f64) -> bool {
-        let scale = self.scale(squares);
-        // R times the step: the change in units of the misfits
+    /// The last step of the parameters, in units of the misfits: R times the step.
+    fn moved(&self) -> f64 {
         let moved: f64 =
             self.white_misfits.iter().take(self.count).map(|change| change * change).sum();
-        let steps = self.parameters.iter().zip(&self.solution.parameters);
-        moved.sqrt() <= tolerance * scale
-            || steps.into_iter().all(|(parameter, step)| step.abs() <= 1e-13 * parameter.abs())
+        moved.sqrt()
+    }
+
+    /// Whether the last step is at the rounding of the parameters.
+    fn is_rounding(&self) -> bool {
+        let mut steps = self.parameters.iter().zip(&self.solution.parameters);
+        steps.all(|(parameter, step)| step.abs() <= 1e-13 * parameter.abs())
     }
 
     /// Whether the curve passes through the points apart from rounding.
@@ -237,21 +351,14 @@ impl<'p> Solver<'p> {
         self.whitened.extend_from_slice(&self.derivatives);
         self.white_misfits.clear();
         self.white_misfits.extend_from_slice(&self.misfits);
-        let columns = self.whitened.chunks_exact_mut(n.max(1));
-        let columns = columns.chain(std::iter::once(&mut self.white_misfits[..]));
         match self.noise {
             Noise::Single { x, y, xy } if x.is_empty() && y.is_empty() && xy.is_empty() => {}
             Noise::Single { .. } => {
-                let slopes = &self.slopes;
-                let weights: Vec<f64> =
-                    (0..n).map(|i| 1.0 / self.noise.of_misfit(i, slopes[i]).sqrt()).collect();
-                for column in columns {
-                    for (entry, weight) in column.iter_mut().zip(&weights) {
-                        *entry *= weight;
-                    }
-                }
+                let (noise, slopes) = (self.noise, &self.slopes);
+                self.weights.clear();
+                self.weights.extend((0..n).map(|i| 1.0 / noise.of_misfit(i, slopes[i]).sqrt()));
             }
-            Noise::Ordinates(root) => columns.for_each(|column| root.solve(column)),
+            Noise::Ordinates(_) => {}
             Noise::Full { x, y, xy } => {
                 let d = &self.slopes;
                 let entry = |i: usize, j: usize| {
@@ -262,11 +369,27 @@ impl<'p> Solver<'p> {
                     coordinate: Some(super::Coordinate::Y),
                     point,
                 })?;
-                columns.for_each(|column| root.solve(column));
-                self.root = Some(root);
+                self.root = Some(Arc::new(root));
             }
         }
+        let mut whitened = std::mem::take(&mut self.whitened);
+        let mut misfits = std::mem::take(&mut self.white_misfits);
+        whitened.chunks_exact_mut(n.max(1)).for_each(|column| self.whiten_column(column));
+        self.whiten_column(&mut misfits);
+        (self.whitened, self.white_misfits) = (whitened, misfits);
         Ok(())
+    }
+
+    fn whiten_column(&self, column: &mut [f64]) {
+        match (self.noise, &self.root) {
+            (Noise::Ordinates(root), _) => root.solve(column),
+            (_, Some(root)) => root.solve(column),
+            (_, None) => {
+                for (entry, weight) in column.iter_mut().zip(&self.weights) {
+                    *entry *= weight;
+                }
+            }
+        }
     }
 
     /// The true abscissae after the step, and their change: the square root of the sum of squares,
@@ -370,6 +493,20 @@ impl<'p> Solver<'p> {
             }
         }
         Err(RegressionError::NotConverged { steps: MOST_STEPS })
+    }
+}
+
+impl End {
+    /// Whether a step ends the fit; `before` is the one before it, `scale` the factor of the
+    /// standard uncertainties.
+    fn is_reached(self, step: f64, before: f64, scale: f64) -> bool {
+        match self {
+            Self::Step(tolerance) => step <= tolerance * scale,
+            Self::Rest(tolerance) => {
+                let ratio = if step > 0.0 { step / before } else { 0.0 };
+                ratio < 1.0 && step * ratio / (1.0 - ratio) <= tolerance * scale
+            }
+        }
     }
 }
 

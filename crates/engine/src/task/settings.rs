@@ -131,9 +131,9 @@ pub struct Settings {
     pub trials: Trials,
     /// When an adaptive run stops.
     pub rule: StoppingRule,
-    /// Up to so many trials of all rows together a run of the usual number of trials
+    /// Up to so many trials of a plain model, of all rows together, a run of the usual number of trials
     /// ([`Settings::USUAL_TRIALS`]) goes on, fourfold each time, where clause 8 is undecided; 0 for no
-    /// more than asked for.
+    /// more than asked for. A trial of many outputs, of a long formula or of a fit counts as several.
     pub decide_up_to: u64,
     /// The largest number of trials of an adaptive run.
     pub max_trials: u64,

@@ -233,7 +233,7 @@ fn with_numbers(
         if value.is_none() && misfit.missing.is_empty() {
             misfit.unsized_prior.get_or_insert_with(|| measured.words());
         }
-        let number = Json::Number(value.unwrap_or(1.0).to_string());
+        let number = Json::Number(value.unwrap_or(1.0).to_string().into());
         Member { value: Node { span: field.value.span.clone(), value: number }, ..field }
     });
     let value = Json::Object(fields.collect());

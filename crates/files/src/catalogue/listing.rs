@@ -110,9 +110,8 @@ fn parameter(member: &Member) -> ListedParameter {
 /// A value in words.
 fn plain(node: &Node) -> String {
     match &node.value {
-        Json::Text(text) | Json::Number(text) => text.clone(),
         Json::Object(members) => Measured::of(members).map(|m| m.words()).unwrap_or_default(),
-        _ => String::new(),
+        other => other.written().unwrap_or_default().to_owned(),
     }
 }
 

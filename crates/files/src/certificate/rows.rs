@@ -290,9 +290,9 @@ impl<'a> CertificateRows<'a> {
         if let Some(member) = member {
             let object = Object::new(self.log, "`set`", &member.value, &member.key_span)?;
             for entry in object.members() {
-                let value = match &entry.value.value {
-                    Json::Number(text) | Json::Text(text) => text.clone(),
-                    other => {
+                let value = match (entry.value.value.written(), &entry.value.value) {
+                    (Some(text), _) => text.to_owned(),
+                    (None, other) => {
                         let what = format!("`{}`", entry.key);
                         let expected = "a number, or a number with a unit in quotes";
                         let diagnostic =

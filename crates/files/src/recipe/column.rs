@@ -12,7 +12,7 @@ pub(super) fn column(log: &Collector, member: &Member) -> Option<ColumnName> {
         Json::Number(text) => match whole_number(text).filter(|n| (1..=100_000).contains(n)) {
             Some(number) => Some(ColumnName::Number(number as usize)),
             None => {
-                let (key, found) = (member.key.clone(), text.clone());
+                let (key, found) = (member.key.clone(), text.to_string());
                 let diagnostic = DiagnosticKind::NotWhole { key, found, least: 1, most: 100_000 };
                 log.report(&member.value.span, diagnostic);
                 None

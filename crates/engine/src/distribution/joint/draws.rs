@@ -200,16 +200,16 @@ impl<'a> Draws<'a> {
             let indices = members.iter().map(|m| m.index);
             paired::draw_spherical(dof, indices, &mut self.streams, registers, register);
         } else {
-            for m in members {
+            for m in group.independent.iter().filter_map(|&of| members.get(of)) {
                 let out = &mut registers[register[m.index]];
                 normal::draw(0.0, 1.0, &mut self.streams[m.index], out);
             }
         }
         let shapes = group.members.iter().zip(packed::rows(&group.factor));
-        for (member, (shape, row)) in members.iter().zip(shapes).rev() {
+        for (of_row, (member, (shape, row))) in members.iter().zip(shapes).enumerate().rev() {
             let mut sum = Column::ZERO;
-            for (&weight, other) in row.iter().zip(members) {
-                let z = &registers[register[other.index]].0;
+            for &of in group.independent.iter().take_while(|of| **of <= of_row) {
+                let (weight, z) = (row[of], &registers[register[members[of].index]].0);
                 for (sum, z) in sum.0.iter_mut().zip(z) {
                     *sum += weight * z;
                 }

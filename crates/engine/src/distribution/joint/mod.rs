@@ -47,7 +47,7 @@ pub use scores::FromScore;
 use standard::Standard;
 
 use super::Distribution;
-use crate::linalg::CorrelationMatrix;
+use crate::linalg::{CorrelationMatrix, packed};
 use crate::regression::Refit;
 
 /// A declared correlation coefficient of two quantities.
@@ -107,8 +107,21 @@ struct JointGroup {
     members: Vec<Member>,
     /// Lower triangular factor of the correlation matrix, packed.
     factor: Vec<f64>,
+    /// The columns of the factor that are not zero: a quantity that the ones before it determine has
+    /// none of its own.
+    independent: Vec<usize>,
     /// Degrees of freedom of a multivariate t distribution; `None` for joint normals.
     dof: Option<f64>,
+}
+
+impl JointGroup {
+    fn new(members: Vec<Member>, coefficients: &CorrelationMatrix, dof: Option<f64>) -> Self {
+        let factor = coefficients.factor();
+        let own = |row: &[f64]| row.last().is_some_and(|entry| *entry != 0.0);
+        let rows = packed::rows(&factor).enumerate();
+        let independent = rows.filter(|(_, row)| own(row)).map(|(index, _)| index).collect();
+        Self { members, factor, independent, dof }
+    }
 }
 
 /// How a set of quantities is drawn, apart from the locations and scales, which differ between
@@ -178,11 +191,9 @@ impl Joint {
                 continue;
             }
             let dof = members.first().map(|&m| distributions[m].drawn_dof());
-            joint.groups.push(JointGroup {
-                members: members.iter().map(|&m| Member::plain(m)).collect(),
-                factor: ensemble.coefficients.factor(),
-                dof: dof.filter(|dof| dof.is_finite()),
-            });
+            let members = members.iter().map(|&m| Member::plain(m)).collect();
+            let dof = dof.filter(|dof| dof.is_finite());
+            joint.groups.push(JointGroup::new(members, &ensemble.coefficients, dof));
         }
         let linked = connected(&active);
         joint.rank_samples = rank_samples(distributions);
@@ -239,7 +250,7 @@ impl Joint {
             Arc::make_mut(&mut self.changes).extend(changes);
             self.copula.extend(members);
         }
-        self.groups.push(JointGroup { members: drawn, factor: wanted.factor(), dof: None });
+        self.groups.push(JointGroup::new(drawn, &wanted, None));
         Ok(())
     }
 
