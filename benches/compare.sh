@@ -5,6 +5,7 @@
 #   benches/compare.sh --quick     some minutes, few trials: does everything run and agree?
 #   benches/compare.sh --rounds 3  fewer repeats of each comparison
 #   benches/compare.sh --before PROGRAM  what users wait for, beside an earlier version of the program
+#   benches/compare.sh --python FOLDER --python-before FOLDER  and of the Python package
 #   benches/compare.sh --resume    goes on where an interrupted run stopped
 #   benches/compare.sh --render    the pages again from the kept measurements
 #

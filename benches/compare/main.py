@@ -6,6 +6,9 @@ import json
 import sys
 from pathlib import Path
 
+# what stands beside this folder
+sys.path.append(str(Path(__file__).resolve().parent.parent))
+
 import machine
 import plot
 import report
@@ -17,7 +20,7 @@ def measured(arguments, kept):
     """Measures; an interrupted run goes on where it stopped if it is told to."""
     paths = arguments.paths.split(",")
     binaries = arguments.workload_binary, arguments.command_binary
-    plan = Plan(*binaries, paths, arguments.quick, arguments.rounds, arguments.before)
+    plan = Plan(*binaries, paths, arguments)
     if arguments.resume:
         results = json.loads(kept.read_text())
     else:
@@ -37,6 +40,8 @@ def main():
     parser.add_argument("--workload-binary", required=True)
     parser.add_argument("--command-binary", required=True)
     parser.add_argument("--before", help="the program in an earlier version, for what users wait for")
+    parser.add_argument("--python", help="the folder of the Python package, for what users wait for")
+    parser.add_argument("--python-before", help="that of an earlier version")
     parser.add_argument("--paths", required=True, help="code paths, slowest first")
     parser.add_argument("--quick", action="store_true")
     parser.add_argument("--rounds", type=int, default=9, help="of a comparison, at most")
@@ -53,6 +58,8 @@ def main():
     text = tested.read_text() if tested.exists() else ""
     (arguments.output / "performance.md").write_text(report.write(results, text))
     plot.draw(results, arguments.output / "performance.svg")
+    if "growth" in results:
+        plot.draw_growth(results, arguments.output / "growth.svg")
     if wrong := disagreements(results["workloads"]):
         sys.exit("the tools do not agree:\n" + "\n".join(wrong))
 

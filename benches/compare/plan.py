@@ -7,6 +7,7 @@ import subprocess
 import sys
 import time
 
+import growth
 import waits
 from contest import Contender, contest
 
@@ -17,10 +18,12 @@ PEERS = os.path.join(os.path.dirname(__file__), "..", "peers.py")
 class Plan:
     """`paths`: the machine's code paths, slowest first."""
 
-    def __init__(self, workload_binary, command_binary, paths, quick, most_rounds, before=None):
-        self.binary, self.command, self.before = workload_binary, command_binary, before
-        self.paths, self.quick = paths, quick
-        self.most_rounds = most_rounds
+    def __init__(self, workload_binary, command_binary, paths, options):
+        self.binary, self.command = workload_binary, os.path.abspath(command_binary)
+        self.paths, self.quick = paths, options.quick
+        self.most_rounds = options.rounds
+        self.programs = waits.versions(options.before, command_binary)
+        self.packages = waits.versions(options.python_before, options.python)
         self.best = paths[-1]
 
     def engine(self, name, workload, trials, threads=1, path=None, memory=64):
@@ -227,11 +230,8 @@ class Plan:
     # -------------------------------------------------------------------------- whole commands
 
     def waits(self):
-        """Commands that users wait for, and the same of an earlier version if there is one."""
-        programs = {"after": self.command}
-        if self.before:
-            programs = {"before": self.before, **programs}
-        return waits.measured(programs, self.rounds(3), self.quick, self.say)
+        """What users wait for, and the same of an earlier version if there is one."""
+        return waits.measured(self.programs, self.packages, self.rounds(3), self.quick, self.say)
 
     def parts(self):
         """What is measured, by name."""
@@ -245,6 +245,7 @@ class Plan:
             "large": self.large,
             "trials": self.trials,
             "memory": self.memory,
+            "growth": lambda: growth.measured(self),
         }
 
     def fill(self, results, keep):

@@ -1,7 +1,8 @@
-"""The plot: time against trials, inputs and threads."""
+"""The plots: time against trials, inputs and threads, and as work grows."""
 
+import growth
 import matplotlib
-from report import with_capped
+from report import grown, with_capped
 
 matplotlib.use("svg")
 import matplotlib.pyplot as plt  # noqa: E402
@@ -19,9 +20,11 @@ def curves(axes, data, label):
     axes.set_axisbelow(True)
 
 
+# the same file from the same numbers
+plt.rcParams.update({"svg.hashsalt": "gumption", "font.size": 9, "svg.fonttype": "none"})
+
+
 def draw(results, path):
-    # the same file from the same numbers
-    plt.rcParams.update({"svg.hashsalt": "gumption", "font.size": 9, "svg.fonttype": "none"})
     figure, (trials, inputs, threads) = plt.subplots(1, 3, figsize=(11, 3.6))
     curves(trials, with_capped(results), "trials (W1)")
     trials.set_ylabel("CPU time, s")
@@ -39,5 +42,19 @@ def draw(results, path):
     threads.set_xticks(counts)
     threads.grid(True, color="#dddddd", linewidth=0.6)
     threads.legend(frameon=False)
+    figure.tight_layout()
+    figure.savefig(path, metadata={"Date": None, "Creator": None})
+
+
+def draw_growth(results, path):
+    found = grown(results)
+    figure, panels = plt.subplots(1, len(found), figsize=(13, 3))
+    for axes, (what, points) in zip(panels, found.items()):
+        axes.loglog(*zip(*points), "o-", color=COLOURS["gumption"], markersize=4)
+        axes.set_xlabel(growth.WHAT[what].replace("`", ""))
+        axes.set_title(f"exponent {growth.exponent(points):.2f}", fontsize=9)
+        axes.grid(True, which="major", color="#dddddd", linewidth=0.6)
+        axes.set_axisbelow(True)
+    panels[0].set_ylabel("CPU time, s")
     figure.tight_layout()
     figure.savefig(path, metadata={"Date": None, "Creator": None})

@@ -1,10 +1,13 @@
 """reports/performance.md from the measurements."""
 
+import math
 import statistics
 
+import growth
 from agreement import disagreements
 from contest import median, ratio
 from goals import Goals, seconds
+from waits import middle
 
 # A machine is taken as busy where a tool on one thread waits for more than this share of its time.
 BUSY = 1.1
@@ -132,35 +135,35 @@ def large(results):
 
 
 def waits(results):
-    """Commands that users wait for, of the earlier version as well where it was measured."""
+    """What users wait for, of the earlier version as well where it was measured."""
     found = results.get("waits")
     if not found:
         return ""
-    with_before = "before" in found[0]["runs"]
+    with_before = any("before" in wait["runs"] for wait in found)
     rows = []
     for wait in found:
-        cells = [wait["what"]]
-        figures = []
+        cells, figures = [wait["what"]], {}
         for name in ("before", "after") if with_before else ("after",):
-            runs = wait["runs"][name]
-            if not runs:
-                cells.append("refused")
-                figures.append(None)
-                continue
-            figures.append(statistics.median(runs))
-            cells.append(seconds(figures[-1]))
+            runs = wait["runs"].get(name)
+            if runs:
+                figures[name] = middle(runs, "cpu_s"), middle(runs, "mb")
+                cells.append("{}, {:.0f} MB".format(seconds(figures[name][0]), figures[name][1]))
+            else:
+                cells.append("refused" if runs == [] else "")
         if with_before:
-            times = figures[0] / figures[1] if all(figures) else None
-            cells.append(f"{times:.3g} x" if times else "")
-        goal = wait["goal"]
-        met = goal and figures[-1] is not None and figures[-1] <= goal
-        cells.append(f"<= {seconds(goal)}: {'met' if met else 'not met'}" if goal else "")
-        rows.append(cells)
-    head = ["", "before", "after", "times as fast", "goal"]
-    if not with_before:
-        head = ["", "CPU", "goal"]
-    text = "Whole commands, from process start to exit, in processor time of all threads"
-    text += "; before is the version of before the crates.\n\n" if with_before else ".\n\n"
+            both = len(figures) == 2
+            cells.append(f"{figures['before'][0] / figures['after'][0]:.3g} x" if both else "")
+        goals = [(wait["goal"], seconds), (wait["goal_mb"], lambda mb: f"{mb:g} MB")]
+        after = figures.get("after", (math.inf, math.inf))
+        stated = [
+            f"<= {show(goal)}: {'met' if value <= goal else 'not met'}"
+            for (goal, show), value in zip(goals, after)
+            if goal
+        ]
+        rows.append([*cells, "; ".join(stated)])
+    head = ["", *(["before", "after", "times as fast"] if with_before else ["CPU, memory"]), "goal"]
+    text = "Whole commands, from process start to exit, and tasks in Python, from the call to the "
+    text += "result: processor time of all threads and most memory.\n\n"
     return "## What users wait for\n\n" + text + table(head, rows)
 
 
@@ -201,11 +204,33 @@ def curves(results):
     return "## Trials, inputs, threads\n\n" + text
 
 
+def grown(results):
+    """What grows, with its points: those of the trials are in the curves."""
+    return {"trials": with_capped(results)["gumption"], **results["growth"]}
+
+
+def growing(results):
+    """CPU time as work grows, and the power that it grows with."""
+    if "growth" not in results:
+        return ""
+    rows = []
+    for what, points in grown(results).items():
+        power, must = growth.exponent(points), growth.MUST[what]
+        cells = [f"{count:,}: {seconds(found)}" for count, found in points]
+        rows.append([growth.WHAT[what], "; ".join(cells), f"{power:.2f}", must])
+    text = "![CPU time as work grows](growth.svg)\n\nOne thread for trials, inputs and outputs, whole "
+    text += "commands for rows and candidates. The exponent is that between the last two points; the "
+    text += "greatest that it may be is 2 where every pair counts: of outputs, whose correlation "
+    text += "coefficients are found, and of candidates, which are hypotheses.\n\n"
+    return "## Cost as work grows\n\n" + text + table(["", "CPU time", "exponent", "at most"], rows)
+
+
 def generator(text):
     return "## Generator\n\n" + (text or "Not tested: `benches/generator.sh` does it.\n")
 
 
 def write(results, generator_text):
     parts = [opening(results), goals(results), workloads(results), agreement(results)]
-    parts += [curves(results), large(results), waits(results), generator(generator_text)]
+    parts += [curves(results), large(results), growing(results), waits(results)]
+    parts.append(generator(generator_text))
     return "\n".join(part for part in parts if part)

@@ -32,6 +32,7 @@ mod standard;
 #[cfg(test)]
 mod tests;
 
+use std::borrow::Cow;
 use std::sync::{Arc, Mutex, PoisonError};
 
 pub use draws::Draws;
@@ -304,10 +305,16 @@ impl Joint {
 }
 
 /// The coefficients that have an effect: not 0, and between quantities with an uncertainty.
-fn active(distributions: &[Arc<Distribution>], correlations: &[Correlation]) -> Vec<Correlation> {
+fn active<'c>(
+    distributions: &[Arc<Distribution>],
+    correlations: &'c [Correlation],
+) -> Cow<'c, [Correlation]> {
     let varies = |q: usize| distributions.get(q).is_some_and(|d| d.constant().is_none());
     let says = |c: &Correlation| c.coefficient != 0.0 && varies(c.first) && varies(c.second);
-    correlations.iter().copied().filter(says).collect()
+    if correlations.iter().all(says) {
+        return Cow::Borrowed(correlations);
+    }
+    Cow::Owned(correlations.iter().copied().filter(says).collect())
 }
 
 /// The matrix of the coefficients among `members`, which are in order.

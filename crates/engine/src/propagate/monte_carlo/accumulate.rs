@@ -4,10 +4,10 @@
 
 use super::plan::Plan;
 use super::products;
-#[cfg(target_arch = "x86_64")]
-use super::simd;
 use super::sums::Sums;
 use super::windows::Windows;
+#[cfg(target_arch = "x86_64")]
+use super::{avx2, avx512};
 use crate::distribution::BLOCK;
 #[cfg(target_arch = "x86_64")]
 use crate::number::Instructions;
@@ -129,9 +129,12 @@ impl Kernel for AccumulateKernel<'_> {
 #[inline(always)]
 pub(super) fn keep(path: CodePath, block: &[f64], windows: &Windows, kept: &mut Vec<f64>) -> u64 {
     #[cfg(target_arch = "x86_64")]
-    if path.instructions() == Instructions::Avx512 {
+    match path.instructions() {
         // SAFETY: the machine has the instructions of a path.
-        return unsafe { simd::keep(block, windows, kept) };
+        Instructions::Avx512 => return unsafe { avx512::keep(block, windows, kept) },
+        // SAFETY: as above.
+        Instructions::Avx2 => return unsafe { avx2::keep(block, windows, kept) },
+        Instructions::Baseline => {}
     }
     let _ = path;
     let mut wanted = [0u8; BLOCK];

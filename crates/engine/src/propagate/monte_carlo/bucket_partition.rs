@@ -10,7 +10,7 @@
 #![allow(unsafe_code)] // instructions of a path that the machine has
 
 #[cfg(target_arch = "x86_64")]
-use super::simd;
+use super::avx512;
 use super::sorting;
 use super::windows::Windows;
 #[cfg(target_arch = "x86_64")]
@@ -128,7 +128,7 @@ fn buckets_of(path: CodePath, layout: &BucketLayout, values: &[f64], out: &mut [
     #[cfg(target_arch = "x86_64")]
     if path.instructions() == Instructions::Avx512 {
         // SAFETY: the machine has the instructions of a path.
-        unsafe { simd::buckets(layout, values, out) };
+        unsafe { avx512::buckets(layout, values, out) };
         return;
     }
     path.run(BucketKernel { layout, values, out });

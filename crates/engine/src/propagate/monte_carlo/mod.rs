@@ -11,6 +11,8 @@
 
 mod accumulate;
 mod adaptive;
+mod avx2;
+mod avx512;
 mod block;
 mod bucket_partition;
 mod condensed;
@@ -37,7 +39,6 @@ mod run;
 mod several_pass;
 mod shortest_scatter;
 #[cfg(target_arch = "x86_64")]
-mod simd;
 mod sorting;
 mod sums;
 mod targets;

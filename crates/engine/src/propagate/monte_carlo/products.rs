@@ -15,8 +15,9 @@ const MEMORY: usize = 256 << 20;
 /// are added up.
 const TILE: usize = 32;
 
-/// Pairs whose sums run side by side.
-const TOGETHER: usize = 4;
+/// Outputs of either side whose pairs are added up side by side: their values stay in the first-level
+/// cache and the sums in registers.
+const TOGETHER: usize = 2;
 
 /// Adds the products of a block's values to the sums; `count` trials of the block count. Every pair
 /// is added up by itself, so neither the tiles nor what runs side by side shows in the sums.
@@ -28,6 +29,9 @@ pub(super) fn add<'s>(
     sums: impl Iterator<Item = &'s mut Sums>,
 ) {
     let outputs = values.len().min(plans.len());
+    if outputs < 2 {
+        return;
+    }
     let mut products: Vec<&mut Vec<f64>> = sums.map(|sums| &mut sums.products).collect();
     for (output, products) in products.iter_mut().enumerate() {
         products.resize(outputs.saturating_sub(output + 1), 0.0);
@@ -43,19 +47,17 @@ pub(super) fn add<'s>(
                 standardize(&values[others.clone()], count, &plans[others.clone()], &mut columns);
             }
             let columns = if second > first { &columns } else { &rows };
-            for i in own.clone() {
-                let a = &rows[i - first];
-                let from = second.max(i + 1);
-                let others = columns.get(from - second..others.end - second).unwrap_or_default();
-                let mut sums = products[i].iter_mut().skip(from - i - 1);
-                let (together, rest) = others.as_chunks::<TOGETHER>();
-                for b in together {
-                    let found = sums_of_products(a, b, count);
-                    found.into_iter().zip(&mut sums).for_each(|(found, sum)| *sum += found);
-                }
-                for (b, sum) in rest.iter().zip(&mut sums) {
-                    let [found] = sums_of_products(a, std::array::from_ref(b), count);
-                    *sum += found;
+            for i in own.clone().step_by(TOGETHER) {
+                for j in (second.max(i)..others.end).step_by(TOGETHER) {
+                    // at an odd end the last output stands for the one that is missing
+                    let a = std::array::from_fn(|k| &rows[(i + k).min(own.end - 1) - first]);
+                    let b = std::array::from_fn(|k| &columns[(j + k).min(others.end - 1) - second]);
+                    let found: [[f64; TOGETHER]; TOGETHER] = sums_of_products(a, b, count);
+                    for (i, found) in (i..own.end).zip(found) {
+                        for (j, found) in (j..others.end).zip(found).filter(|(j, _)| *j > i) {
+                            products[i][j - i - 1] += found;
+                        }
+                    }
                 }
             }
         }
@@ -75,23 +77,26 @@ fn standardize(values: &[[f64; BLOCK]], count: usize, plans: &[Plan], out: &mut 
     }
 }
 
-/// The sums of products of the first `count` values, in lanes, then lane by lane.
+/// The sums of products of the first `count` values of each a and b, in lanes, then lane by lane.
 #[inline(always)]
-fn sums_of_products<const N: usize>(
-    a: &[f64; BLOCK],
-    b: &[[f64; BLOCK]; N],
+fn sums_of_products(
+    a: [&[f64; BLOCK]; TOGETHER],
+    b: [&[f64; BLOCK]; TOGETHER],
     count: usize,
-) -> [f64; N] {
-    let mut lanes = [[0.0; LANES]; N];
-    let b: [&[[f64; LANES]]; N] = std::array::from_fn(|n| b[n].as_chunks().0);
-    for (chunk, a) in a.as_chunks::<LANES>().0.iter().enumerate().take(count.div_ceil(LANES)) {
-        for (lanes, b) in lanes.iter_mut().zip(b) {
-            for ((lane, a), b) in lanes.iter_mut().zip(a).zip(&b[chunk]) {
-                *lane += a * b;
+) -> [[f64; TOGETHER]; TOGETHER] {
+    let mut sums = [[[0.0; LANES]; TOGETHER]; TOGETHER];
+    let a = a.map(|a| a.as_chunks::<LANES>().0);
+    let b = b.map(|b| b.as_chunks::<LANES>().0);
+    for chunk in 0..count.div_ceil(LANES) {
+        for (sums, a) in sums.iter_mut().zip(a) {
+            for (sums, b) in sums.iter_mut().zip(b) {
+                for ((lane, a), b) in sums.iter_mut().zip(&a[chunk]).zip(&b[chunk]) {
+                    *lane += a * b;
+                }
             }
         }
     }
-    lanes.map(pairwise)
+    sums.map(|sums| sums.map(pairwise))
 }
 
 /// Some chunks in waves.
