@@ -193,7 +193,7 @@ impl Sampler {
             self.schedule.run_on(path, registers);
             for (number, prepared) in changes.iter().enumerate() {
                 let Prepared { change, following, has_shape_before } = prepared;
-                let mut outputs = &self.schedule.outputs;
+                let mut scheduled = &self.schedule.outputs;
                 if let Some(following) = following {
                     let changed = &mut registers[following.variables[0]];
                     match change {
@@ -209,10 +209,10 @@ impl Sampler {
                         }
                     }
                     following.run_on(path, registers);
-                    outputs = &following.outputs;
+                    scheduled = &following.outputs;
                 }
-                self.all(outputs, registers, found);
-                taker.take(path, number, found, (count - first).min(COLUMN));
+                let outputs = self.all(scheduled, registers, found);
+                taker.take(path, number, outputs, (count - first).min(COLUMN));
             }
         }
     }
@@ -246,16 +246,16 @@ impl Sampler {
             for (number, sample) in [&*values, &*second].into_iter().enumerate() {
                 registers[..quantities].clone_from_slice(sample);
                 self.schedule.run_on(path, registers);
-                self.all(&self.schedule.outputs, registers, found);
-                taker.take(path, number, found, count);
+                let outputs = self.all(&self.schedule.outputs, registers, found);
+                taker.take(path, number, outputs, count);
             }
             for (number, PreparedSet { places, following }) in sets.iter().enumerate() {
                 for (&place, &register) in places.iter().zip(&following.variables) {
                     registers[register].0 = values[place].0;
                 }
                 following.run_on(path, registers);
-                self.all(&following.outputs, registers, found);
-                taker.take(path, 2 + number, found, count);
+                let outputs = self.all(&following.outputs, registers, found);
+                taker.take(path, 2 + number, outputs, count);
             }
         }
     }
@@ -291,11 +291,20 @@ impl Sampler {
         }
     }
 
-    /// The columns of all outputs after the steps that end in `outputs` have run.
-    fn all(&self, outputs: &[ScheduledOutput], registers: &[Column], found: &mut [Column]) {
-        for (output, (&at, found)) in outputs.iter().zip(found).enumerate() {
-            self.found(at, registers, output, &mut found.0);
+    /// The columns of all outputs after the steps that end in `scheduled` have run; those that are
+    /// not in a register as they are go to `found`.
+    fn all<'a>(
+        &'a self,
+        scheduled: &'a [ScheduledOutput],
+        registers: &'a [Column],
+        found: &'a mut [Column],
+    ) -> Outputs<'a> {
+        for (output, (&at, found)) in scheduled.iter().zip(&mut *found).enumerate() {
+            if in_register(at, &self.branches[output]).is_none() {
+                self.found(at, registers, output, &mut found.0);
+            }
         }
+        Outputs { scheduled, branches: &self.branches, registers, found }
     }
 
     /// The column of a scheduled output.
@@ -307,6 +316,41 @@ impl Sampler {
         if let Some((middle, turn)) = self.branches[output] {
             onto_branch(out, middle, turn);
         }
+    }
+}
+
+/// The register of an output whose values are taken as they are.
+#[inline(always)]
+fn in_register(scheduled: ScheduledOutput, branch: &Option<(f64, f64)>) -> Option<usize> {
+    match (scheduled, branch) {
+        (ScheduledOutput::Register(register), None) => Some(register),
+        _ => None,
+    }
+}
+
+/// A column of trials of every output.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Outputs<'a> {
+    scheduled: &'a [ScheduledOutput],
+    branches: &'a [Option<(f64, f64)>],
+    registers: &'a [Column],
+    found: &'a [Column],
+}
+
+impl<'a> Outputs<'a> {
+    /// The column of an output.
+    #[inline(always)]
+    pub(super) fn column(self, output: usize) -> &'a Column {
+        match in_register(self.scheduled[output], &self.branches[output]) {
+            Some(register) => &self.registers[register],
+            None => &self.found[output],
+        }
+    }
+
+    /// The columns of all outputs.
+    #[inline(always)]
+    pub(super) fn columns(self) -> impl Iterator<Item = &'a Column> {
+        (0..self.scheduled.len()).map(move |output| self.column(output))
     }
 }
 
@@ -328,7 +372,7 @@ fn widen(values: &Column, mean: f64, factor: f64, out: &mut Column) {
 pub(super) trait Taker {
     /// Receives the first `count` trials of a column of all outputs, under the change or for the
     /// sample with this number.
-    fn take(&mut self, path: CodePath, number: usize, outputs: &mut [Column], count: usize);
+    fn take(&mut self, path: CodePath, number: usize, outputs: Outputs<'_>, count: usize);
 }
 
 /// The steps to an output if only one quantity changes.

@@ -10,7 +10,7 @@
 use gumption_engine::parallel;
 
 use super::lanes::{LANES, in_lanes, with_deviations};
-use super::sampler::{PreparedSet, Sampler, Taker};
+use super::sampler::{Outputs, PreparedSet, Sampler, Taker};
 use super::spread::{batches, standard_error, trials_in};
 use gumption_engine::number::{CodePath, Column, Kernel};
 use gumption_engine::propagate::Control;
@@ -91,9 +91,9 @@ impl Lanes {
 struct First(Vec<f64>);
 
 impl Taker for First {
-    fn take(&mut self, _: CodePath, number: usize, outputs: &mut [Column], _count: usize) {
+    fn take(&mut self, _: CodePath, number: usize, outputs: Outputs<'_>, _count: usize) {
         if number == 0 {
-            self.0 = outputs.iter().map(|column| column.0[0]).collect();
+            self.0 = outputs.columns().map(|column| column.0[0]).collect();
         }
     }
 }
@@ -107,10 +107,10 @@ struct Samples<'a> {
 }
 
 impl Taker for Samples<'_> {
-    fn take(&mut self, path: CodePath, number: usize, outputs: &mut [Column], count: usize) {
+    fn take(&mut self, path: CodePath, number: usize, outputs: Outputs<'_>, count: usize) {
         path.run(AddSample { samples: self, number, outputs, count });
         if let Some(sample) = self.both.get_mut(number) {
-            sample.clone_from_slice(outputs);
+            sample.iter_mut().zip(outputs.columns()).for_each(|(kept, found)| kept.0 = found.0);
         }
     }
 }
@@ -119,7 +119,7 @@ impl Taker for Samples<'_> {
 struct AddSample<'a, 's> {
     samples: &'a mut Samples<'s>,
     number: usize,
-    outputs: &'a [Column],
+    outputs: Outputs<'a>,
     count: usize,
 }
 
@@ -133,7 +133,7 @@ impl Kernel for AddSample<'_, '_> {
     fn run(self) {
         let Self { samples, number, outputs, count } = self;
         let Samples { references, both: [b, a], lanes } = samples;
-        for (output, (column, lanes)) in outputs.iter().zip(lanes).enumerate() {
+        for (output, (column, lanes)) in outputs.columns().zip(lanes).enumerate() {
             let values: &[f64] = &column.0[..count];
             let [mut first, mut second] = match number.checked_sub(2) {
                 None => lanes.samples,
