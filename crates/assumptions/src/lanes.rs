@@ -24,10 +24,19 @@ pub(super) fn with_deviations(
     values: &[f64],
     reference: f64,
 ) -> [[f64; LANES]; 2] {
-    in_lanes(values.len(), |place, lane| {
-        let d = values[place] - reference;
+    let mut add = |lane: usize, value: f64| {
+        let d = value - reference;
         sums[lane] += d;
         squares[lane] += d * d;
-    });
+    };
+    let (whole, rest) = values.as_chunks::<LANES>();
+    for chunk in whole {
+        for (lane, &value) in chunk.iter().enumerate() {
+            add(lane, value);
+        }
+    }
+    for (lane, &value) in rest.iter().enumerate() {
+        add(lane, value);
+    }
     [sums, squares]
 }

@@ -199,11 +199,13 @@ pub fn trials_to_make(task: &Task, question: Question) -> u64 {
         let variants = row.distributions.iter().zip(&task.variables).map(|(known, variable)| {
             let changed = changed(variable.evaluation, known);
             let other = if changed { alternatives::alternatives(known).len() + 2 } else { 0 };
-            other + 2 * usize::from(known.constant().is_none())
+            other + usize::from(known.constant().is_none())
         });
-        variants.sum::<usize>() as u64 + 3
+        let trials = question.trials.saturating_mul(variants.sum::<usize>() as u64 + 1);
+        let varying = row.distributions.iter().filter(|known| known.constant().is_none());
+        trials.saturating_add(sobol::evaluations(varying.count()))
     };
-    task.rows.iter().map(row).sum::<u64>().saturating_mul(question.trials)
+    task.rows.iter().map(row).fold(0, u64::saturating_add)
 }
 
 /// Whether the input has an assumption that can be varied.
@@ -253,7 +255,8 @@ type Moves = Vec<Vec<VariantChange>>;
 impl Auditor<'_> {
     fn row(&self, warnings: &mut Vec<Warning>) -> Result<Option<RowAudit>, EvaluationError> {
         let Self { task, row, question, control } = *self;
-        let sampler = Sampler::new(task, row)?;
+        let gum = gum::evaluate(task, row);
+        let sampler = Sampler::new(task, row, &gum)?;
         let others: Vec<Vec<(Kept, Distribution)>> = (0..sampler.variables.len())
             .map(|place| match self.stated(&sampler, place) {
                 Some(stated) if sampler.has_scores(place) => alternatives::alternatives(stated),
@@ -282,7 +285,7 @@ impl Auditor<'_> {
         };
         let linked = sampler.linked();
         let (sets, alone) = factors(&sampler, &linked);
-        let Some(indices) = sobol::indices(&sampler, &sets, question.trials, control) else {
+        let Some(indices) = sobol::indices(&sampler, &sets, control) else {
             return Ok(None);
         };
         let probability = task.settings.coverage.probability();
@@ -298,7 +301,6 @@ impl Auditor<'_> {
             return Ok(None);
         }
         self.note_links(&sampler, &linked, &others, warnings);
-        let gums = gum::evaluate(task, row).outputs;
         let reach = task.model.program.reach();
         let outputs = (0..sampler.outputs()).map(|output| {
             let finite = self.fewest_dof(&reach, output, None) > 2.0;
@@ -306,7 +308,7 @@ impl Auditor<'_> {
                 set.and_then(|set| indices.get(output)?.get(set).copied().flatten())
                     .filter(|_| finite)
             };
-            let gum = gums.get(output).and_then(Option::as_ref);
+            let gum = gum.outputs.get(output).and_then(Option::as_ref);
             let shown = task.variables.iter().enumerate().filter(|(_, variable)| variable.shown);
             let inputs = shown.map(|(variable, _)| {
                 let place = sampler.variables.binary_search(&variable).ok();

@@ -3,11 +3,19 @@
 
 use gumption_engine::distribution::{BLOCK, Draws, FromScore, StreamKey, Varying};
 use gumption_engine::model::{Following, Schedule, ScheduledOutput};
-use gumption_engine::number::{COLUMN, CodePath, Column};
+use gumption_engine::number::{COLUMN, CodePath, Column, largest_first};
+use gumption_engine::propagate::gum::{Gum, GumRow};
 use gumption_engine::propagate::monte_carlo::stream_name;
 use gumption_engine::propagate::onto_branch;
-use gumption_engine::propagate::{EvaluationError, gum, joint};
+use gumption_engine::propagate::{EvaluationError, NetCoordinate, joint};
+use gumption_engine::special;
 use gumption_engine::task::{Row, Task};
+
+/// Scrambled nets that the Sobol indices come from.
+pub(super) const NETS: u64 = 16;
+
+/// Points of each net.
+pub(super) const NET_POINTS: usize = 4096;
 
 /// One row of a task, prepared for trials with changes.
 #[derive(Debug)]
@@ -19,8 +27,13 @@ pub(super) struct Sampler {
     keys: Vec<StreamKey>,
     /// Streams of a second, independent sample.
     second: Vec<StreamKey>,
+    seed: u64,
+    /// The dimension of each quantity in a scrambled net, the one with the largest share first.
+    dimensions: Vec<usize>,
     /// How values follow from scores; `None` for variables that are drawn as values.
     from_score: Vec<Option<FromScore>>,
+    /// The outputs at the estimates; 0 where they are not finite.
+    middles: Vec<f64>,
     branches: Vec<Option<(f64, f64)>>,
 }
 
@@ -75,9 +88,8 @@ impl Sampler {
     ///
     /// # Errors
     /// Correlations that cannot be drawn.
-    pub(super) fn new(task: &Task, row: &Row) -> Result<Self, EvaluationError> {
+    pub(super) fn new(task: &Task, row: &Row, gum: &GumRow) -> Result<Self, EvaluationError> {
         let joint = joint(task, row)?;
-        let estimates = gum::evaluate(task, row).estimates;
         let mut bound: Vec<Option<f64>> = row.distributions.iter().map(|d| d.constant()).collect();
         let variables: Vec<usize> =
             (0..row.distributions.len()).filter(|&v| bound[v].is_none()).collect();
@@ -90,16 +102,19 @@ impl Sampler {
         let values_only = varying.without_scores();
         let from_score = varying.distributions().iter().zip(&values_only);
         let from_score = from_score.map(|(d, is)| (!is).then(|| FromScore::of(d))).collect();
-        let outputs = task.model.outputs.iter().zip(&estimates);
-        let branches = outputs.map(|(output, &middle)| {
-            output.period.map(|turn| (if middle.is_finite() { middle } else { 0.0 }, turn))
-        });
+        let middles = gum.estimates.iter().map(|&y| if y.is_finite() { y } else { 0.0 });
+        let middles: Vec<f64> = middles.collect();
+        let outputs = task.model.outputs.iter().zip(&middles);
+        let branches = outputs.map(|(output, &middle)| output.period.map(|turn| (middle, turn)));
         Ok(Self {
             schedule: Schedule::keeping_all(&task.model.program, &bound),
             branches: branches.collect(),
+            middles,
             // names of variables never contain a bar
             keys: key(""),
             second: key("|second sample"),
+            seed: task.settings.seed,
+            dimensions: dimensions(&variables, gum),
             varying,
             variables,
             from_score,
@@ -108,6 +123,11 @@ impl Sampler {
 
     pub(super) fn outputs(&self) -> usize {
         self.schedule.outputs.len()
+    }
+
+    /// The outputs at the estimates; 0 where they are not finite.
+    pub(super) fn middles(&self) -> &[f64] {
+        &self.middles
     }
 
     /// Whether an output depends on the quantity at an index.
@@ -181,7 +201,7 @@ impl Sampler {
     ) {
         let Buffers { scores, values, registers, outputs: found, .. } = buffers;
         let quantities = self.variables.len();
-        let places: Vec<usize> = (0..quantities).collect();
+        let places = self.places();
         let followings = changes.iter().filter_map(|prepared| prepared.following.as_ref());
         followings.for_each(|following| make_room(registers, following));
         let mut draws = Draws::new(&self.varying, &self.keys, path, block);
@@ -193,7 +213,7 @@ impl Sampler {
             self.schedule.run_on(path, registers);
             for (number, prepared) in changes.iter().enumerate() {
                 let Prepared { change, following, has_shape_before } = prepared;
-                let mut outputs = &self.schedule.outputs;
+                let mut scheduled = &self.schedule.outputs;
                 if let Some(following) = following {
                     let changed = &mut registers[following.variables[0]];
                     match change {
@@ -209,61 +229,86 @@ impl Sampler {
                         }
                     }
                     following.run_on(path, registers);
-                    outputs = &following.outputs;
+                    scheduled = &following.outputs;
                 }
-                self.all(outputs, registers, found);
-                taker.take(path, number, found, (count - first).min(COLUMN));
+                let outputs = self.all(scheduled, registers, found);
+                taker.take(path, number, outputs, (count - first).min(COLUMN));
             }
         }
     }
 
-    /// Passes on the outputs of the first `count` trials of block `block`: for the first sample (0)
-    /// and the second one (1), then for the second with each of the sets of quantities taken from
-    /// the first. With (A, B) = (second, first) these are the terms of Jansen's estimators: A, B,
-    /// and A with one set from B.
+    /// Passes on the outputs at the points of a scrambled net, column by column: for the first
+    /// sample (0) and the second one (1), then for the second with each of the sets of quantities
+    /// taken from the first. With (A, B) = (second, first) these are the terms of Jansen's
+    /// estimators: A, B, and A with one set from B. The dimensions of the second sample follow
+    /// those of the first.
     pub(super) fn mixed(
         &self,
         path: CodePath,
-        block: u64,
-        count: usize,
+        net: u64,
         sets: &[PreparedSet<'_>],
         buffers: &mut Buffers,
         taker: &mut dyn Taker,
     ) {
         let Buffers { scores, values, second, registers, outputs: found } = buffers;
         let quantities = self.variables.len();
-        let places: Vec<usize> = (0..quantities).collect();
         sets.iter().for_each(|set| make_room(registers, &set.following));
-        let mut draws = Draws::new(&self.varying, &self.keys, path, block);
-        let mut others = Draws::new(&self.varying, &self.second, path, block);
-        for first in (0..count).step_by(COLUMN) {
-            let count = (count - first).min(COLUMN);
-            draws.scores_on(path, scores, &places);
-            self.values(path, scores, values);
-            others.scores_on(path, scores, &places);
-            self.values(path, scores, second);
-            // the second sample last, as the sets are put into it
-            for (number, sample) in [&*values, &*second].into_iter().enumerate() {
-                registers[..quantities].clone_from_slice(sample);
-                self.schedule.run_on(path, registers);
-                self.all(&self.schedule.outputs, registers, found);
-                taker.take(path, number, found, count);
-            }
-            for (number, PreparedSet { places, following }) in sets.iter().enumerate() {
-                for (&place, &register) in places.iter().zip(&following.variables) {
-                    registers[register].0 = values[place].0;
+        let seed = self.seed.wrapping_mul(NETS).wrapping_add(net);
+        let coordinates = [0, quantities].map(|first| -> Vec<NetCoordinate> {
+            self.dimensions.iter().map(|d| NetCoordinate::new(first + d, seed)).collect()
+        });
+        let blocks = NET_POINTS.div_ceil(BLOCK);
+        for block in 0..blocks {
+            let streams = net * blocks as u64 + block as u64;
+            let mut draws = [&self.keys, &self.second]
+                .map(|keys| Draws::new(&self.varying, keys, path, streams));
+            let points = block * BLOCK..((block + 1) * BLOCK).min(NET_POINTS);
+            for first in points.step_by(COLUMN) {
+                let samples = draws.iter_mut().zip(&coordinates);
+                for ((draws, coordinates), sample) in samples.zip([&mut *values, &mut *second]) {
+                    self.scores_at(coordinates, first, scores);
+                    draws.scores_from_on(path, scores, &self.places());
+                    self.values(path, scores, sample);
                 }
-                following.run_on(path, registers);
-                self.all(&following.outputs, registers, found);
-                taker.take(path, 2 + number, found, count);
+                // the second sample last, as the sets are put into it
+                for (number, sample) in [&*values, &*second].into_iter().enumerate() {
+                    registers[..quantities].clone_from_slice(sample);
+                    self.schedule.run_on(path, registers);
+                    let outputs = self.all(&self.schedule.outputs, registers, found);
+                    taker.take(path, number, outputs, COLUMN);
+                }
+                for (number, PreparedSet { places, following }) in sets.iter().enumerate() {
+                    for (&place, &register) in places.iter().zip(&following.variables) {
+                        registers[register].0 = values[place].0;
+                    }
+                    following.run_on(path, registers);
+                    let outputs = self.all(&following.outputs, registers, found);
+                    taker.take(path, 2 + number, outputs, COLUMN);
+                }
             }
         }
+    }
+
+    /// Independent standard normal scores of the quantities that have them, at `COLUMN` points of a
+    /// net.
+    fn scores_at(&self, coordinates: &[NetCoordinate], first: usize, scores: &mut [Column]) {
+        let quantities = coordinates.iter().zip(&self.from_score).zip(scores);
+        for ((coordinate, _), scores) in quantities.filter(|((_, from), _)| from.is_some()) {
+            for (point, score) in scores.0.iter_mut().enumerate() {
+                *score = special::normal::quantile(coordinate.at((first + point) as u32));
+            }
+        }
+    }
+
+    /// The places of all quantities.
+    fn places(&self) -> Vec<usize> {
+        (0..self.variables.len()).collect()
     }
 
     /// The values of all quantities in the first `blocks` blocks, column by column.
     pub(super) fn drawn(&self, path: CodePath, block: u64, buffers: &mut Buffers) -> Vec<Column> {
         let Buffers { scores, values, .. } = buffers;
-        let places: Vec<usize> = (0..self.variables.len()).collect();
+        let places = self.places();
         let mut draws = Draws::new(&self.varying, &self.keys, path, block);
         let mut drawn = Vec::with_capacity(BLOCK / COLUMN * places.len());
         for _ in 0..BLOCK / COLUMN {
@@ -291,11 +336,20 @@ impl Sampler {
         }
     }
 
-    /// The columns of all outputs after the steps that end in `outputs` have run.
-    fn all(&self, outputs: &[ScheduledOutput], registers: &[Column], found: &mut [Column]) {
-        for (output, (&at, found)) in outputs.iter().zip(found).enumerate() {
-            self.found(at, registers, output, &mut found.0);
+    /// The columns of all outputs after the steps that end in `scheduled` have run; those that are
+    /// not in a register as they are go to `found`.
+    fn all<'a>(
+        &'a self,
+        scheduled: &'a [ScheduledOutput],
+        registers: &'a [Column],
+        found: &'a mut [Column],
+    ) -> Outputs<'a> {
+        for (output, (&at, found)) in scheduled.iter().zip(&mut *found).enumerate() {
+            if in_register(at, &self.branches[output]).is_none() {
+                self.found(at, registers, output, &mut found.0);
+            }
         }
+        Outputs { scheduled, branches: &self.branches, registers, found }
     }
 
     /// The column of a scheduled output.
@@ -307,6 +361,57 @@ impl Sampler {
         if let Some((middle, turn)) = self.branches[output] {
             onto_branch(out, middle, turn);
         }
+    }
+}
+
+/// The dimension of each of the varying quantities in a net: those of the largest shares of an output's
+/// variance take the first ones, which fill the space most evenly.
+fn dimensions(variables: &[usize], gum: &GumRow) -> Vec<usize> {
+    let mut shares = vec![0.0_f64; variables.len()];
+    for line in gum.outputs.iter().flatten().flat_map(Gum::budget) {
+        if let Ok(place) = variables.binary_search(&line.variable) {
+            shares[place] = shares[place].max(line.share.abs());
+        }
+    }
+    let mut order: Vec<usize> = (0..variables.len()).collect();
+    largest_first(&mut order, |&place| shares[place]);
+    let mut dimensions = vec![0; variables.len()];
+    order.iter().enumerate().for_each(|(dimension, &place)| dimensions[place] = dimension);
+    dimensions
+}
+
+/// The register of an output whose values are taken as they are.
+#[inline(always)]
+fn in_register(scheduled: ScheduledOutput, branch: &Option<(f64, f64)>) -> Option<usize> {
+    match (scheduled, branch) {
+        (ScheduledOutput::Register(register), None) => Some(register),
+        _ => None,
+    }
+}
+
+/// A column of trials of every output.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Outputs<'a> {
+    scheduled: &'a [ScheduledOutput],
+    branches: &'a [Option<(f64, f64)>],
+    registers: &'a [Column],
+    found: &'a [Column],
+}
+
+impl<'a> Outputs<'a> {
+    /// The column of an output.
+    #[inline(always)]
+    pub(super) fn column(self, output: usize) -> &'a Column {
+        match in_register(self.scheduled[output], &self.branches[output]) {
+            Some(register) => &self.registers[register],
+            None => &self.found[output],
+        }
+    }
+
+    /// The columns of all outputs.
+    #[inline(always)]
+    pub(super) fn columns(self) -> impl Iterator<Item = &'a Column> {
+        (0..self.scheduled.len()).map(move |output| self.column(output))
     }
 }
 
@@ -328,7 +433,7 @@ fn widen(values: &Column, mean: f64, factor: f64, out: &mut Column) {
 pub(super) trait Taker {
     /// Receives the first `count` trials of a column of all outputs, under the change or for the
     /// sample with this number.
-    fn take(&mut self, path: CodePath, number: usize, outputs: &mut [Column], count: usize);
+    fn take(&mut self, path: CodePath, number: usize, outputs: Outputs<'_>, count: usize);
 }
 
 /// The steps to an output if only one quantity changes.

@@ -6,12 +6,15 @@
 //! S_i = 1 - mean((f(B) - f(AB_i))^2) / 2V,  ST_i = mean((f(A) - f(AB_i))^2) / 2V
 //!
 //! Quantities that are drawn together are taken from B together: they have one index as a set.
+//!
+//! Both samples are the points of one net in twice as many dimensions. A fixed number of nets,
+//! scrambled independently, gives the indices; their scatter gives the numerical standard errors.
 
 use gumption_engine::parallel;
 
 use super::lanes::{LANES, in_lanes, with_deviations};
-use super::sampler::{PreparedSet, Sampler, Taker};
-use super::spread::{batches, standard_error, trials_in};
+use super::sampler::{NET_POINTS, NETS, Outputs, PreparedSet, Sampler, Taker};
+use super::spread::standard_error;
 use gumption_engine::number::{CodePath, Column, Kernel};
 use gumption_engine::propagate::Control;
 
@@ -87,17 +90,6 @@ impl Lanes {
     }
 }
 
-/// The first value of each output.
-struct First(Vec<f64>);
-
-impl Taker for First {
-    fn take(&mut self, _: CodePath, number: usize, outputs: &mut [Column], _count: usize) {
-        if number == 0 {
-            self.0 = outputs.iter().map(|column| column.0[0]).collect();
-        }
-    }
-}
-
 /// Takes the samples into sums.
 struct Samples<'a> {
     references: &'a [f64],
@@ -107,10 +99,10 @@ struct Samples<'a> {
 }
 
 impl Taker for Samples<'_> {
-    fn take(&mut self, path: CodePath, number: usize, outputs: &mut [Column], count: usize) {
+    fn take(&mut self, path: CodePath, number: usize, outputs: Outputs<'_>, count: usize) {
         path.run(AddSample { samples: self, number, outputs, count });
         if let Some(sample) = self.both.get_mut(number) {
-            sample.clone_from_slice(outputs);
+            sample.iter_mut().zip(outputs.columns()).for_each(|(kept, found)| kept.0 = found.0);
         }
     }
 }
@@ -119,7 +111,7 @@ impl Taker for Samples<'_> {
 struct AddSample<'a, 's> {
     samples: &'a mut Samples<'s>,
     number: usize,
-    outputs: &'a [Column],
+    outputs: Outputs<'a>,
     count: usize,
 }
 
@@ -133,7 +125,7 @@ impl Kernel for AddSample<'_, '_> {
     fn run(self) {
         let Self { samples, number, outputs, count } = self;
         let Samples { references, both: [b, a], lanes } = samples;
-        for (output, (column, lanes)) in outputs.iter().zip(lanes).enumerate() {
+        for (output, (column, lanes)) in outputs.columns().zip(lanes).enumerate() {
             let values: &[f64] = &column.0[..count];
             let [mut first, mut second] = match number.checked_sub(2) {
                 None => lanes.samples,
@@ -159,11 +151,10 @@ impl Kernel for AddSample<'_, '_> {
 }
 
 /// For each output the indices of each set of variables; `None` for an output that does not vary or
-/// has trials that are not finite. `None` altogether if stopped.
+/// has values that are not finite. `None` altogether if stopped.
 pub(super) fn indices(
     sampler: &Sampler,
     sets: &[Vec<usize>],
-    trials: u64,
     control: &Control<'_>,
 ) -> Option<Vec<Vec<Option<Sobol>>>> {
     // the sums of all sets that are evaluated at a time
@@ -171,48 +162,41 @@ pub(super) fn indices(
     let at_a_time = (control.memory / set).max(1);
     let mut all = vec![Vec::with_capacity(sets.len()); sampler.outputs()];
     for sets in sets.chunks(at_a_time) {
-        let found = indices_of(sampler, sets, trials, control)?;
+        let found = indices_of(sampler, sets, control)?;
         all.iter_mut().zip(found).for_each(|(all, found)| all.extend(found));
     }
     Some(all)
+}
+
+/// The number of points at which the indices of so many quantities evaluate the model.
+pub(super) fn evaluations(quantities: usize) -> u64 {
+    NETS * NET_POINTS as u64 * (2 + quantities as u64)
 }
 
 /// The indices of some of the sets.
 fn indices_of(
     sampler: &Sampler,
     sets: &[Vec<usize>],
-    trials: u64,
     control: &Control<'_>,
 ) -> Option<Vec<Vec<Option<Sobol>>>> {
     let outputs = sampler.outputs();
     let sets: Vec<PreparedSet<'_>> = sets.iter().map(|set| sampler.prepared_set(set)).collect();
-    // relative to a value of the output, so that a common large part costs no digits
-    let mut first = First(Vec::new());
-    sampler.mixed(control.path, 0, 1, &[], &mut sampler.buffers(), &mut first);
-    let references = first.0;
-    let batch = |blocks: std::ops::Range<u64>| {
-        let mut buffers = sampler.buffers();
+    let batch = |net: u64| {
+        if control.is_stopped() {
+            return None;
+        }
         let none =
             Lanes { samples: [[0.0; LANES]; 2], differences: vec![[[0.0; LANES]; 2]; sets.len()] };
-        let mut lanes = Samples {
-            references: &references,
+        let mut samples = Samples {
+            references: sampler.middles(),
             both: [vec![Column::ZERO; outputs], vec![Column::ZERO; outputs]],
             lanes: vec![none; outputs],
         };
-        let mut made = 0;
-        for block in blocks {
-            if control.is_stopped() {
-                return None;
-            }
-            let count = trials_in(block, trials);
-            sampler.mixed(control.path, block, count, &sets, &mut buffers, &mut lanes);
-            made += count;
-            control.advance((count * (2 + sets.len())) as u64);
-        }
-        Some(lanes.lanes.iter().map(|lanes| lanes.sums(made as f64)).collect())
+        sampler.mixed(control.path, net, &sets, &mut sampler.buffers(), &mut samples);
+        control.advance((NET_POINTS * (2 + sets.len())) as u64);
+        Some(samples.lanes.iter().map(|lanes| lanes.sums(NET_POINTS as f64)).collect())
     };
-    let batches: Option<Vec<Vec<BatchSums>>> =
-        parallel::map(batches(trials), batch).into_iter().collect();
+    let batches: Option<Vec<Vec<BatchSums>>> = parallel::map(0..NETS, batch).into_iter().collect();
     let batches = batches?;
     let of = |output: usize, set: usize| {
         let parts = || batches.iter().filter_map(|batch| batch.get(output));

@@ -8,9 +8,9 @@
 use gumption_engine::parallel;
 
 use super::lanes::{LANES, with_deviations};
-use super::sampler::{Change, Prepared, Sampler, Taker};
+use super::sampler::{Change, Outputs, Prepared, Sampler, Taker};
 use gumption_engine::distribution::BLOCK;
-use gumption_engine::number::{COLUMN, CodePath, Column, Kernel, ascending, at_rank};
+use gumption_engine::number::{CodePath, Column, Kernel, at_rank};
 use gumption_engine::propagate::Control;
 use gumption_engine::propagate::monte_carlo::Ranks;
 
@@ -25,6 +25,9 @@ const SMALL: u64 = 64;
 
 /// How many standard deviations of a rank the limits are wider than needed on average.
 const MARGIN: f64 = 6.0;
+
+/// Values that are compared at a time in the search for those to keep.
+const NEIGHBOURS: usize = 8;
 
 /// The spread of one output under one change.
 #[derive(Clone, Debug, PartialEq)]
@@ -160,51 +163,78 @@ fn plans(
 ) -> Vec<ChangePlan> {
     let blocks = trials.div_ceil(BLOCK as u64);
     let mut buffers = sampler.buffers();
-    let mut pilot = Pilot { values: vec![vec![Vec::new(); sampler.outputs()]; changes.len()] };
+    let values = vec![vec![Vec::new(); sampler.outputs()]; changes.len()];
+    let mut pilot = Pilot { changes, values };
     for block in 0..blocks.min(PILOT) {
         let count = trials_in(block, trials);
         sampler.changed(control.path, block, count, changes, &mut buffers, &mut pilot);
     }
     let batch = trials as f64 / batches(trials).len().max(1) as f64;
-    let plan = |values: &mut Vec<f64>, is_taken: bool| {
-        ascending(values);
+    let tail = 0.5 - 0.5 * probability;
+    let plan = |values: &mut Vec<f64>| {
         let n = values.len() as f64;
-        let at = |share: f64| {
-            let place = share * n;
-            let inside = place >= 1.0 && place < n - 1.0;
-            inside.then(|| values.get(place as usize).copied()).flatten()
-        };
-        let reference = at(0.5).unwrap_or(0.0);
-        if blocks <= SMALL {
-            return OutputPlan { limits: Limits::All, reference, is_taken };
-        }
-        let tail = 0.5 - 0.5 * probability;
         let spread = (tail * (1.0 - tail)).sqrt();
         let margin = MARGIN * spread * (1.0 / n.sqrt() + 1.0 / batch.sqrt()) + 2.0 / batch;
-        let about = |share: f64| {
-            [
-                at(share - margin).unwrap_or(f64::NEG_INFINITY),
-                at(share + margin).unwrap_or(f64::INFINITY),
-            ]
+        let ends = [tail - margin, tail + margin, 1.0 - tail - margin, 1.0 - tail + margin];
+        let place = |share: f64| {
+            let place = share * n;
+            (place >= 1.0 && place < n - 1.0).then_some(place as usize)
         };
-        let limits = Limits::About([about(tail), about(1.0 - tail)]);
-        OutputPlan { limits, reference, is_taken }
+        let middle = place(0.5);
+        let ends = if blocks <= SMALL { [None; 4] } else { ends.map(place) };
+        let mut places: Vec<usize> = ends.into_iter().chain([middle]).flatten().collect();
+        places.sort_unstable();
+        places.dedup();
+        put_in_order(values, 0, &places);
+        let reference = middle.map_or(0.0, |place| values[place]);
+        if blocks <= SMALL {
+            return OutputPlan { limits: Limits::All, reference, is_taken: true };
+        }
+        let at = |place: Option<usize>, otherwise: f64| place.map_or(otherwise, |p| values[p]);
+        let about = |low, high| [at(low, f64::NEG_INFINITY), at(high, f64::INFINITY)];
+        let limits = Limits::About([about(ends[0], ends[1]), about(ends[2], ends[3])]);
+        OutputPlan { limits, reference, is_taken: true }
     };
-    let planned = pilot.values.iter_mut().zip(changes).map(|(outputs, change)| {
-        outputs.iter_mut().enumerate().map(|(o, values)| plan(values, change.moves(o))).collect()
-    });
-    planned.collect()
+    let mut planned: Vec<ChangePlan> = Vec::with_capacity(changes.len());
+    for (outputs, change) in pilot.values.iter_mut().zip(changes) {
+        let baseline = planned.first();
+        let plans = outputs.iter_mut().enumerate().map(|(output, values)| match baseline {
+            // the values of the baseline
+            Some(baseline) if !change.moves(output) => {
+                OutputPlan { is_taken: false, ..baseline[output] }
+            }
+            _ => plan(values),
+        });
+        let plans = plans.collect();
+        planned.push(plans);
+    }
+    planned
 }
 
-/// The finite values of the first blocks.
-struct Pilot {
+/// Moves the numbers with some ranks (from 0, rising) to their sorted positions; the first number
+/// has the rank `first`.
+fn put_in_order(values: &mut [f64], first: usize, ranks: &[usize]) {
+    let Some(&middle) = ranks.get(ranks.len() / 2) else { return };
+    let (lower, upper) = (&ranks[..ranks.len() / 2], &ranks[ranks.len() / 2 + 1..]);
+    at_rank(values, middle - first);
+    let (below, above) = values.split_at_mut(middle - first);
+    put_in_order(below, first, lower);
+    put_in_order(&mut above[1..], middle + 1, upper);
+}
+
+/// The finite values of the first blocks, of the outputs that the changes move.
+struct Pilot<'a> {
+    changes: &'a [Prepared<'a>],
     values: Vec<Vec<Vec<f64>>>,
 }
 
-impl Taker for Pilot {
-    fn take(&mut self, _: CodePath, number: usize, outputs: &mut [Column], count: usize) {
-        for (values, column) in self.values[number].iter_mut().zip(outputs) {
-            values.extend(column.0[..count].iter().filter(|value| value.is_finite()));
+impl Taker for Pilot<'_> {
+    fn take(&mut self, _: CodePath, number: usize, outputs: Outputs<'_>, count: usize) {
+        for (output, values) in self.values[number].iter_mut().enumerate() {
+            if self.changes[number].moves(output) {
+                let column = &outputs.column(output).0[..count];
+                values.extend(column.iter().filter(|value| value.is_finite()));
+            }
         }
     }
 }
@@ -245,24 +275,18 @@ fn tallies(
     parallel::map(batches(trials), batch).into_iter().collect()
 }
 
-/// Moves the trials with finite outputs to the front, and returns their number.
+/// Whether the outputs are finite in all of the first `count` trials.
 #[inline(always)]
-fn defined(outputs: &mut [Column], count: usize) -> usize {
+fn are_defined(outputs: Outputs<'_>, count: usize) -> bool {
     // all values are counted, so that several are compared at a time
     let finite = |column: &Column| {
         column.0[..count].iter().map(|value| u64::from(value.is_finite())).sum::<u64>()
     };
-    if outputs.iter().all(|column| finite(column) == count as u64) {
-        return count;
+    let mut all = true;
+    for column in outputs.columns() {
+        all &= finite(column) == count as u64;
     }
-    let mut left = 0;
-    for trial in 0..count {
-        if outputs.iter().all(|column| column.0[trial].is_finite()) {
-            outputs.iter_mut().for_each(|column| column.0[left] = column.0[trial]);
-            left += 1;
-        }
-    }
-    left
+    all
 }
 
 /// Collects values into the tallies of a batch.
@@ -272,7 +296,7 @@ struct Tallies<'a> {
 }
 
 impl Taker for Tallies<'_> {
-    fn take(&mut self, path: CodePath, number: usize, outputs: &mut [Column], count: usize) {
+    fn take(&mut self, path: CodePath, number: usize, outputs: Outputs<'_>, count: usize) {
         path.run(AddTallies { tallies: self, number, outputs, count });
     }
 }
@@ -280,7 +304,7 @@ impl Taker for Tallies<'_> {
 struct AddTallies<'a, 't> {
     tallies: &'a mut Tallies<'t>,
     number: usize,
-    outputs: &'a mut [Column],
+    outputs: Outputs<'a>,
     count: usize,
 }
 
@@ -294,12 +318,31 @@ impl Kernel for AddTallies<'_, '_> {
     fn run(self) {
         let Self { tallies, number, outputs, count } = self;
         let batch = &mut tallies.found[number];
-        let defined = defined(outputs, count);
-        batch.undefined += (count - defined) as u64;
         let plan = &tallies.plans[number];
-        for ((tally, column), plan) in batch.outputs.iter_mut().zip(&*outputs).zip(plan) {
+        if !are_defined(outputs, count) {
+            batch.add_defined(outputs, count, plan);
+            return;
+        }
+        for ((output, tally), plan) in batch.outputs.iter_mut().enumerate().zip(plan) {
             if plan.is_taken {
-                tally.add(&column.0[..defined], plan);
+                tally.add(&outputs.column(output).0[..count], plan);
+            }
+        }
+    }
+}
+
+impl TrialBatch {
+    /// Adds the trials with finite outputs, of which some of the first `count` are not.
+    #[inline(never)]
+    fn add_defined(&mut self, outputs: Outputs<'_>, count: usize, plan: &ChangePlan) {
+        let is_defined = |trial: &usize| outputs.columns().all(|of| of.0[*trial].is_finite());
+        let defined: Vec<usize> = (0..count).filter(is_defined).collect();
+        self.undefined += (count - defined.len()) as u64;
+        for ((output, tally), plan) in self.outputs.iter_mut().enumerate().zip(plan) {
+            if plan.is_taken {
+                let column = outputs.column(output);
+                let values: Vec<f64> = defined.iter().map(|&trial| column.0[trial]).collect();
+                tally.add(&values, plan);
             }
         }
     }
@@ -320,24 +363,16 @@ impl BatchTally {
                 }
                 let [[a, b], [c, d]] = about;
                 let is_kept = |v: f64| ((v >= a) & (v <= b)) | ((v >= c) & (v <= d));
-                let mut found = [0.0; COLUMN];
-                let mut count = 0;
-                let mut keep = |values: &[f64]| {
-                    for &value in values {
-                        found[count % COLUMN] = value;
-                        count += usize::from(is_kept(value));
-                    }
-                };
                 // few values are kept, and mostly none of some neighbours
-                for chunk in values.chunks(LANES) {
-                    if chunk.iter().map(|&value| u64::from(is_kept(value))).sum::<u64>() > 0 {
-                        keep(chunk);
+                for chunk in values.chunks(NEIGHBOURS) {
+                    if chunk.iter().map(|&value| u64::from(is_kept(value))).sum::<u64>() == 0 {
+                        continue;
                     }
-                }
-                for &value in &found[..count] {
-                    for (kept, [low, high]) in self.kept.iter_mut().zip(about) {
-                        if value >= low && value <= high {
-                            kept.push(value);
+                    for &value in chunk.iter().filter(|&&value| is_kept(value)) {
+                        for (kept, [low, high]) in self.kept.iter_mut().zip(about) {
+                            if value >= low && value <= high {
+                                kept.push(value);
+                            }
                         }
                     }
                 }

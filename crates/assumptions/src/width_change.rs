@@ -1,7 +1,7 @@
 //! How far a stated width may be wrong before the expanded uncertainty changes by more than the
 //! allowed amount.
 
-use super::sampler::{Buffers, Change, Sampler, Taker, Widening};
+use super::sampler::{Buffers, Change, Outputs, Sampler, Taker, Widening};
 use gumption_engine::distribution::BLOCK;
 use gumption_engine::number::{COLUMN, CodePath, Column, ascending, at_rank};
 use gumption_engine::propagate::Control;
@@ -252,8 +252,8 @@ fn in_tails(values: &[f64], places: [usize; 2]) -> Option<[f64; 2]> {
 struct Collected(Vec<Vec<f64>>);
 
 impl Taker for Collected {
-    fn take(&mut self, _: CodePath, _number: usize, outputs: &mut [Column], count: usize) {
-        for (values, column) in self.0.iter_mut().zip(outputs) {
+    fn take(&mut self, _: CodePath, _number: usize, outputs: Outputs<'_>, count: usize) {
+        for (values, column) in self.0.iter_mut().zip(outputs.columns()) {
             values.extend_from_slice(&column.0[..count]);
         }
     }

@@ -367,6 +367,9 @@ impl Kernel for Walk<'_, '_> {
         let mut residuals = vec![Column::ZERO; count];
         let mut before = vec![Column::ZERO; count];
         let mut ln_variances = vec![Column::ZERO; count];
+        // what the noise of the last row's outputs is made of, and the root of its inverse variance
+        let mut last: Vec<Option<[f64; 3]>> = vec![None; count];
+        let mut roots = vec![Column::ZERO; count];
         for (number, point) in data.points.iter().enumerate() {
             for (n, place, maps) in &varying {
                 for lane in 0..lanes {
@@ -397,7 +400,12 @@ impl Kernel for Walk<'_, '_> {
                     for output in 0..count {
                         let place = row * count + output;
                         let known = covariance.variances[place];
-                        if data.uncertainties[output].is_some() {
+                        let variance_of = [known, ln_sizes[place], data.ln_scales[place]];
+                        let is_same = last[output] == Some(variance_of);
+                        last[output] = Some(variance_of);
+                        if is_same {
+                            // the columns are those of the row before
+                        } else if data.uncertainties[output].is_some() {
                             ln_variances[output].0.fill(elementary::ln(known));
                         } else {
                             for lane in 0..lanes {
@@ -411,9 +419,14 @@ impl Kernel for Walk<'_, '_> {
                                 };
                             }
                         }
+                        if !is_same {
+                            for lane in 0..lanes {
+                                roots[output].0[lane] =
+                                    elementary::exp(-0.5 * ln_variances[output].0[lane]);
+                            }
+                        }
                         for lane in 0..lanes {
-                            residuals[output].0[lane] = raw[output].0[lane]
-                                * elementary::exp(-0.5 * ln_variances[output].0[lane]);
+                            residuals[output].0[lane] = raw[output].0[lane] * roots[output].0[lane];
                         }
                     }
                 } else {

@@ -33,7 +33,8 @@ impl<'s> Predictor<'s> {
     pub fn new(setup: &'s Setup<'_>, effects: &[usize], rows: &[Row], outputs: &[usize]) -> Self {
         let likelihood = setup.likelihood(effects);
         let program = setup.case.program(effects);
-        // inputs whose prior differs from row to row have it from these rows
+        // inputs have their prior from these rows, once if it is the same in all of them
+        let first = rows.first().map_or(&[][..], |row| &row.distributions);
         let roles: Vec<Role> = likelihood
             .roles
             .iter()
@@ -46,7 +47,9 @@ impl<'s> Predictor<'s> {
                         }
                         map => map,
                     };
-                    let maps: Vec<Map> = rows.iter().map(of).collect();
+                    let is_first = |row: &Row| row.distributions[*place] == first[*place];
+                    let different = if rows.iter().all(is_first) { 1 } else { rows.len() };
+                    let maps = rows.iter().take(different).map(of).collect();
                     Role::Variable { place: *place, maps }
                 }
                 other => other.clone(),

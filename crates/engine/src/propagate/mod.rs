@@ -50,6 +50,7 @@ pub use inherited::Inherited;
 pub use input_figures::InputFigures;
 pub use naming::naming;
 pub use origins::{Origins, linear, origins, own_roots};
+pub use quasi::NetCoordinate;
 pub use region_figures::{
     JointRegion, Region, RegionEvaluation, RegionValidation, SampledRegion, SmallestRegion,
 };

@@ -383,7 +383,8 @@ impl Mixture {
         let mut squared = vec![0.0; count];
         let mut scales = vec![0.0; count];
         let mut means = vec![DVector::<f64>::zeros(d); count];
-        let mut products = vec![DMatrix::<f64>::zeros(d, d); count];
+        let mut products = vec![vec![0.0; triangle(d)]; count];
+        let mut away = vec![0.0; d];
         let mut distances = vec![Column::ZERO; count];
         let mut densities = vec![Column::ZERO; count];
         let (_, peaks) = self.peaks();
@@ -413,12 +414,17 @@ impl Mixture {
                     shares[k] += part;
                     squared[k] += part * part;
                     scales[k] += pull;
+                    let mean = &self.components[k].mean;
+                    for ((away, score), mean) in away.iter_mut().zip(scores).zip(mean) {
+                        *away = score.0[lane] - mean;
+                    }
+                    let products = &mut products[k];
                     for i in 0..d {
-                        let x = scores[i].0[lane] - self.components[k].mean[i];
-                        means[k][i] += pull * x;
-                        for j in 0..=i {
-                            let y = scores[j].0[lane] - self.components[k].mean[j];
-                            products[k][(i, j)] += pull * x * y;
+                        let pulled = pull * away[i];
+                        means[k][i] += pulled;
+                        let row = &mut products[triangle(i)..=triangle(i) + i];
+                        for (product, away) in row.iter_mut().zip(&away) {
+                            *product += pulled * away;
                         }
                     }
                 }
@@ -432,7 +438,7 @@ impl Mixture {
             let effective = shares[k] * shares[k] / squared[k].max(f64::MIN_POSITIVE);
             let shift = &means[k] / scales[k];
             let mut scale = DMatrix::from_fn(d, d, |i, j| {
-                products[k][(i.max(j), i.min(j))] / shares[k]
+                products[k][triangle(i.max(j)) + i.min(j)] / shares[k]
                     - shift[i] * shift[j] * scales[k] / shares[k]
             });
             // few points say little of a shape: the old one counts as some more

@@ -105,6 +105,7 @@ impl Varying {
 
 struct ScoresKernel<'k, 'a> {
     draws: &'k mut Draws<'a>,
+    independent: Independent,
     registers: &'k mut [Column],
     register: &'k [usize],
 }
@@ -114,8 +115,17 @@ impl Kernel for ScoresKernel<'_, '_> {
 
     #[inline(always)]
     fn run(self) {
-        self.draws.scores(self.registers, self.register);
+        self.draws.scores(self.independent, self.registers, self.register);
     }
+}
+
+/// Where the independent standard normal numbers of quantities come from.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+enum Independent {
+    /// They are drawn.
+    Drawn,
+    /// They are there already.
+    Given,
 }
 
 /// The running draw of a set of quantities through one block.
@@ -142,7 +152,8 @@ impl<'a> Draws<'a> {
         }
         for (group, members) in varying.joint.groups.iter().zip(&varying.members) {
             if members.iter().any(|m| used[m.index]) {
-                self.group(group, members, false, registers, register);
+                self.independent(group, members, registers, register);
+                mix(group, members, false, registers, register);
             }
         }
         for set in &varying.rank_samples {
@@ -162,19 +173,31 @@ impl<'a> Draws<'a> {
     /// destination for quantity `q`.
     #[inline(never)]
     pub fn scores_on(&mut self, path: CodePath, registers: &mut [Column], register: &[usize]) {
-        path.run(ScoresKernel { draws: self, registers, register });
+        let independent = Independent::Drawn;
+        path.run(ScoresKernel { draws: self, independent, registers, register });
+    }
+
+    /// The same from independent standard normal numbers, which the destinations of the quantities
+    /// with scores hold; values of the others are drawn.
+    #[inline(never)]
+    pub fn scores_from_on(&mut self, path: CodePath, registers: &mut [Column], register: &[usize]) {
+        let independent = Independent::Given;
+        path.run(ScoresKernel { draws: self, independent, registers, register });
     }
 
     #[inline(always)]
-    fn scores(&mut self, registers: &mut [Column], register: &[usize]) {
+    fn scores(&mut self, independent: Independent, registers: &mut [Column], register: &[usize]) {
         let varying = self.varying;
         for q in 0..varying.len() {
-            if !varying.in_group[q] {
+            if independent == Independent::Drawn && !varying.in_group[q] {
                 normal::draw(0.0, 1.0, &mut self.streams[q], &mut registers[register[q]]);
             }
         }
         for (group, members) in varying.joint.groups.iter().zip(&varying.members) {
-            self.group(group, members, group.dof.is_none(), registers, register);
+            if independent == Independent::Drawn || group.dof.is_some() {
+                self.independent(group, members, registers, register);
+            }
+            mix(group, members, group.dof.is_none(), registers, register);
         }
         for set in &varying.rank_samples {
             set.draw(&varying.distributions, &mut self.streams, registers, register);
@@ -184,15 +207,12 @@ impl<'a> Draws<'a> {
         }
     }
 
-    /// Standard normal quantities, or a spherical t distribution, mixed by the factor from the last
-    /// row upwards, so that every row finds the columns above it unmixed. With `scores` the mixed
-    /// normal ones are not converted.
+    /// Independent standard normal quantities of a group, or a spherical t distribution.
     #[inline(always)]
-    fn group(
+    fn independent(
         &mut self,
         group: &JointGroup,
         members: &[Member],
-        scores: bool,
         registers: &mut [Column],
         register: &[usize],
     ) {
@@ -205,27 +225,40 @@ impl<'a> Draws<'a> {
                 normal::draw(0.0, 1.0, &mut self.streams[m.index], out);
             }
         }
-        let shapes = group.members.iter().zip(packed::rows(&group.factor));
-        for (of_row, (member, (shape, row))) in members.iter().zip(shapes).enumerate().rev() {
-            let mut sum = Column::ZERO;
-            for &of in group.independent.iter().take_while(|of| **of <= of_row) {
-                let (weight, z) = (row[of], &registers[register[members[of].index]].0);
-                for (sum, z) in sum.0.iter_mut().zip(z) {
-                    *sum += weight * z;
-                }
+    }
+}
+
+/// Mixes the independent quantities of a group by its factor, from the last row upwards, so that
+/// every row finds the columns above it unmixed. With `scores` the mixed normal ones are not
+/// converted.
+#[inline(always)]
+fn mix(
+    group: &JointGroup,
+    members: &[Member],
+    scores: bool,
+    registers: &mut [Column],
+    register: &[usize],
+) {
+    let shapes = group.members.iter().zip(packed::rows(&group.factor));
+    for (of_row, (member, (shape, row))) in members.iter().zip(shapes).enumerate().rev() {
+        let mut sum = Column::ZERO;
+        for &of in group.independent.iter().take_while(|of| **of <= of_row) {
+            let (weight, z) = (row[of], &registers[register[members[of].index]].0);
+            for (sum, z) in sum.0.iter_mut().zip(z) {
+                *sum += weight * z;
             }
-            let out = &mut registers[register[member.index]].0;
-            if scores {
-                *out = sum.0;
-                continue;
-            }
-            if let Some(table) = shape.table() {
-                let z = sum.clone();
-                table.values(&z.0, &mut sum.0);
-            }
-            for (out, sum) in out.iter_mut().zip(&sum.0) {
-                *out = member.location + member.scale * sum;
-            }
+        }
+        let out = &mut registers[register[member.index]].0;
+        if scores {
+            *out = sum.0;
+            continue;
+        }
+        if let Some(table) = shape.table() {
+            let z = sum.clone();
+            table.values(&z.0, &mut sum.0);
+        }
+        for (out, sum) in out.iter_mut().zip(&sum.0) {
+            *out = member.location + member.scale * sum;
         }
     }
 }

@@ -17,7 +17,7 @@ mod tests;
 
 use crate::parallel;
 
-pub(super) use self::net::NetCoordinate;
+pub use self::net::NetCoordinate;
 
 use self::cdf::Cdf;
 use self::pieces::ColumnPieces;

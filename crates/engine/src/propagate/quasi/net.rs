@@ -46,17 +46,18 @@ fn directions(dimension: usize) -> [u32; 32] {
     v
 }
 
-/// One coordinate of a scrambled net.
+/// One coordinate of a net of Sobol points with Owen's nested scrambling. Dimensions beyond 128 have
+/// random numbers.
 #[derive(Clone, Debug)]
-pub(in crate::propagate) struct NetCoordinate {
+pub struct NetCoordinate {
     /// `None` beyond the dimensions of the table, where numbers are random.
     directions: Option<[u32; 32]>,
     seed: u64,
 }
 
 impl NetCoordinate {
-    /// The coordinate of a dimension in a randomization.
-    pub(in crate::propagate) fn new(dimension: usize, seed: u64) -> Self {
+    /// The coordinate of a dimension (from 0) in a randomization.
+    pub fn new(dimension: usize, seed: u64) -> Self {
         let known = dimension <= DIRECTIONS.len();
         Self {
             directions: known.then(|| directions(dimension)),
@@ -64,8 +65,8 @@ impl NetCoordinate {
         }
     }
 
-    /// The coordinate of a point, in (0, 1).
-    pub(in crate::propagate) fn at(&self, point: u32) -> f64 {
+    /// The coordinate of a point (from 0), in (0, 1).
+    pub fn at(&self, point: u32) -> f64 {
         let bits = match &self.directions {
             Some(directions) => self.scrambled(sobol(directions, point)),
             None => hash(self.seed, u64::from(point)),

@@ -23,7 +23,7 @@ use super::SmallestRegion;
 use crate::linalg::packed;
 use crate::number::elementary::{exp, hypot, pow};
 use crate::parallel;
-use crate::propagate::quasi::NetCoordinate;
+use crate::propagate::NetCoordinate;
 use crate::special;
 use coordinates::Coordinates;
 use density::{Density, Mesh};
