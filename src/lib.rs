@@ -341,8 +341,8 @@ pub mod propagate {
         Accuracy, CapabilityStatement, Conformity, ConformityLevel, Control, Evaluation,
         EvaluationError, GlobalRisks, Inherited, JointRegion, Noiseless, OutputEvaluation, Region,
         RegionEvaluation, RegionValidation, RowEvaluation, SampledRegion, Scatter, SecondOrder,
-        SmallestRegion, convergence, evaluate, first_trials, for_each_block, histograms, quantiles,
-        trial_hash, warnings,
+        SmallestRegion, convergence, evaluate, first_draws, first_trials, for_each_block,
+        histograms, quantiles, trial_hash, warnings,
     };
 
     /// The law of propagation of uncertainty (JCGM 100).

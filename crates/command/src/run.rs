@@ -106,9 +106,9 @@ enum DofRule {
 
 impl Run {
     pub(super) fn execute(&self, program: &CommandLine) -> Result<Exit, Failure> {
-        let file = self.model.read_for(program, self.trials, &self.readings)?;
-        let mut task = file.task.clone();
-        self.settings(&mut task);
+        let mut file = self.model.read_for(program, self.trials, &self.readings)?;
+        self.settings(&mut file.task);
+        let (file, task) = (&file, &file.task);
         if self.rule.is_some() && task.settings.trials != Trials::Adaptive {
             let reason = "`--rule` is for adaptive runs; add `--trials adaptive`";
             return Err(Failure::Argument(reason.to_owned()));
@@ -117,32 +117,32 @@ impl Run {
         let control = self.control(&stop);
         let shared = || {
             let (path, set) = (self.model.path(), &self.model.replacements);
-            SharedRun::new(&file, path, set, &task.settings, self.memory)
+            SharedRun::new(file, path, set, &task.settings, self.memory)
         };
         let quiet = self.evaluated.answer.quiet;
         if let (Some(blocks), Some(partial)) = (&self.blocks, &self.partial) {
-            let read = self.paths(&file);
+            let read = self.paths(file);
             let asked =
                 parts::AskedPart { blocks, partial, pass: self.pass.as_deref(), read, quiet };
             let run = shared();
-            return parts::make(PartedRun::new(&file, &task, &run), asked, &control);
+            return parts::make(PartedRun::new(file, task, &run), asked, &control);
         }
-        self.evaluated.check(&task)?;
-        let places = self.evaluated.open(&self.paths(&file))?;
+        self.evaluated.check(task)?;
+        let places = self.evaluated.open(&self.paths(file))?;
         let (evaluation, quantiles) = match &self.resume {
             Some(folder) => {
                 let asked = (folder.as_path(), self.evaluated.saves());
                 let run = shared();
-                let run = PartedRun::new(&file, &task, &run);
+                let run = PartedRun::new(file, task, &run);
                 let found = parts::resume(run, asked, &control, quiet)?;
                 let Some((evaluation, quantiles)) = found else { return Ok(Exit::Interrupted) };
                 (*evaluation, quantiles)
             }
-            None => (self.evaluate(&file, &task, &control)?, None),
+            None => (self.evaluate(file, task, &control)?, None),
         };
         let replaced: Vec<String> =
             self.model.replacements.iter().map(|set| set.text.clone()).collect();
-        let found = (&file, &task, &evaluation, quantiles);
+        let found = (file, task, &evaluation, quantiles);
         self.evaluated.give(found, &replaced, places, (&control, &stop))
     }
 

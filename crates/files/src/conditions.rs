@@ -409,9 +409,15 @@ impl super::condition_values::ConditionValues for NoConditions {
         kind.map_or(Ok(()), |kind| Err(vec![kind]))
     }
 
-    fn value(&self, formula: &Formula, _: usize, unit: &Unit, _: ValueOf) -> f64 {
+    fn values(
+        &self,
+        formula: &Formula,
+        unit: &Unit,
+        _: ValueOf,
+    ) -> super::condition_values::ValuesOfRows<'_> {
         let value = formula.evaluate(&Scope::new(), &HashMap::<String, f64>::new());
-        unit.from_si(value.unwrap_or(f64::NAN))
+        let value = unit.from_si(value.unwrap_or(f64::NAN));
+        Box::new(move |_| value)
     }
 
     fn place(&self, _: &str) -> Option<usize> {

@@ -3,7 +3,7 @@
 use std::collections::HashSet;
 
 use super::codata::MeasuredConstant;
-use super::condition_values::ConditionValues;
+use super::condition_values::{ConditionValues, ValuesOfRows};
 use super::conditions::unit;
 use super::dcc::FromCertificate;
 use super::input_set::InputSet;
@@ -20,7 +20,6 @@ use gumption_engine::decimal;
 use gumption_engine::distribution::{Constant, Distribution, EvaluationType, Samples};
 use gumption_engine::fact;
 use gumption_engine::fact::{Argument, Fact};
-use gumption_engine::model::formula::Formula;
 use gumption_engine::model::{InputQuantity, Quantity};
 use gumption_engine::number::Shortest;
 use gumption_engine::task::{Evidence, Sharing, Trials, Variable, Warning};
@@ -39,10 +38,10 @@ const MOST_VARIABLES: usize = 100_000;
 const DEVIATIONS: f64 = 0.05;
 
 /// Where a quantity's estimate comes from.
-enum EstimateSource {
+enum EstimateSource<'c> {
     Own,
     Fixed(f64),
-    Formula(Formula),
+    Formula(ValuesOfRows<'c>),
 }
 
 /// Reads `inputs`; saved results are looked up in `results`, and paths are relative to its folder.
@@ -286,7 +285,7 @@ impl<'a> InputReader<'a, '_> {
     }
 
     /// The estimate's source: the command line, a formula of the conditions, or the own fields.
-    fn source(&self, key: &str, unit: &Unit) -> Option<EstimateSource> {
+    fn source(&self, key: &str, unit: &Unit) -> Option<EstimateSource<'a>> {
         if let Some(moved) = self.moved {
             let value = moved.value_of_file(unit, self.object.log);
             return self.object.log.value(self.object.place(), value).map(EstimateSource::Fixed);
@@ -317,7 +316,8 @@ impl<'a> InputReader<'a, '_> {
             }
             return None;
         }
-        Some(EstimateSource::Formula(formula))
+        let values = self.conditions.values(&formula, unit, ValueOf::Quantity);
+        Some(EstimateSource::Formula(values))
     }
 
     /// The input as a text instead of an object, if it can be one: a value with its uncertainty.
@@ -334,13 +334,11 @@ impl<'a> InputReader<'a, '_> {
     }
 
     /// The estimate in a row, in the quantity's unit.
-    fn estimate(&self, source: &EstimateSource, unit: &Unit, row: usize) -> Option<Estimate> {
+    fn estimate(&self, source: &EstimateSource<'_>, row: usize) -> Option<Estimate> {
         let value = match source {
             EstimateSource::Own => return Some(Estimate::Own),
             EstimateSource::Fixed(value) => *value,
-            EstimateSource::Formula(formula) => {
-                self.conditions.value(formula, row, unit, ValueOf::Quantity)
-            }
+            EstimateSource::Formula(values) => values(row),
         };
         if value.is_finite() {
             return Some(Estimate::Given(value));
@@ -401,7 +399,7 @@ impl<'a> InputReader<'a, '_> {
         let differs = matches!(source, EstimateSource::Formula(_))
             || shapes::has_width_of_row(&object, kind, unit, read.as_ref());
         for row in 0..if differs { self.conditions.rows() } else { 1 } {
-            let estimate = self.estimate(&source, unit, row);
+            let estimate = self.estimate(&source, row);
             let Some(distribution) = estimate.and_then(|e| fields(e, row).distribution(kind))
             else {
                 return;
@@ -722,7 +720,7 @@ impl<'a> InputReader<'a, '_> {
                 }
                 _ => of_readings,
             };
-            let total = match self.estimate(&source, unit, row) {
+            let total = match self.estimate(&source, row) {
                 Some(Estimate::Own) => own_mean.unwrap_or(of_readings),
                 Some(Estimate::Given(value)) => value,
                 None => return,

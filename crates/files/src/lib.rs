@@ -12,6 +12,7 @@ mod catalogue;
 mod certificate;
 mod checked;
 mod codata;
+mod condition_formula;
 mod condition_values;
 mod conditions;
 mod constant_inputs;

@@ -5,7 +5,6 @@ use std::ops::Range;
 use std::sync::Arc;
 
 use super::condition_values::ConditionValues;
-use super::conditions::Conditions;
 use super::constant_inputs::ConstantInputs;
 use super::model_checks::Quantities;
 use super::scopes::ConditionSet;
@@ -47,19 +46,14 @@ pub(super) fn following(
         }
         return None;
     }
-    Some(figure(formula, of, unit, set))
+    Some(figure(&formula, of, unit, set))
 }
 
 /// What a formula of conditions gives in a unit.
-fn figure(formula: Formula, of: ValueOf, unit: &Unit, set: &ConditionSet<'_>) -> OfConditions {
-    let (known, unit) = (names_of(set), unit.clone());
-    let check_units = set.check_units;
-    let constants = ConstantInputs::default();
-    OfConditions::new(move |values| {
-        let conditions = Conditions { rows: vec![values.to_vec()], ..known.clone() };
-        ConditionSet { conditions: &conditions, check_units, constants: &constants }
-            .value(&formula, 0, &unit, of)
-    })
+fn figure(formula: &Formula, of: ValueOf, unit: &Unit, set: &ConditionSet<'_>) -> OfConditions {
+    let set = ConditionSet { constants: &ConstantInputs::default(), ..*set };
+    let compiled = set.compiled(formula, unit, of);
+    OfConditions::new(move |conditions| compiled.at(conditions))
 }
 
 /// A limit of an output in degC or degF that is a formula of conditions: a temperature, or a difference of
@@ -94,7 +88,7 @@ impl LimitFormula {
             place: member.value.span.clone(),
             formula: formula.text().to_owned(),
             is_difference: is_difference(typing),
-            difference: figure(formula.clone(), ValueOf::Difference, unit, set),
+            difference: figure(formula, ValueOf::Difference, unit, set),
         })
     }
 }
@@ -145,13 +139,6 @@ pub(super) fn of_temperatures(log: &Collector, scope: &Scope, of: &mut Quantitie
             }
         }
     }
-}
-
-/// The conditions without their rows.
-fn names_of(set: &ConditionSet<'_>) -> Conditions {
-    let Conditions { quantities, without_unit, .. } = set.conditions;
-    let (quantities, without_unit) = (quantities.clone(), without_unit.clone());
-    Conditions { quantities, without_unit, ..Conditions::default() }
 }
 
 /// The laboratory's capability for an output, which is where the keys stand; `name` is for messages.

@@ -1,9 +1,10 @@
 //! What formulas of a file are checked against: the names that they may use, with their units.
 
-use std::collections::{HashMap, HashSet};
+use std::collections::HashSet;
 use std::ops::Range;
 
-use super::condition_values::ConditionValues;
+use super::condition_formula::ConditionFormula;
+use super::condition_values::{ConditionValues, ValuesOfRows};
 use super::conditions::Conditions;
 use super::constant_inputs::ConstantInputs;
 use super::input_set::InputSet;
@@ -93,7 +94,7 @@ pub(super) fn number_form(check_units: bool) -> NumberForm {
 }
 
 /// What is added to a formula's number where it becomes a value in a unit.
-fn shift(typing: Typing, unit: &Unit, of: ValueOf) -> Result<f64, ScaleMisfit> {
+pub(super) fn shift(typing: Typing, unit: &Unit, of: ValueOf) -> Result<f64, ScaleMisfit> {
     let is_difference = of == ValueOf::Difference && typing.level == unit.level_exponent();
     match typing.given_in(unit) {
         Err(
@@ -156,6 +157,15 @@ impl ConditionSet<'_> {
         let all = self.conditions.quantities.iter().chain(constants);
         let plain = all.filter(|quantity| quantity.unit.dimension().is_none());
         plain.map(|quantity| quantity.name.as_str()).collect()
+    }
+
+    /// A formula whose value is wanted in a unit.
+    pub(super) fn compiled(&self, formula: &Formula, unit: &Unit, of: ValueOf) -> ConditionFormula {
+        let form = number_form(self.check_units);
+        let scope = self.scope_of(formula);
+        let constants = self.constants_of(formula);
+        let conditions = &self.conditions.quantities;
+        ConditionFormula::new(formula, &scope, form, conditions, constants, (unit, of))
     }
 
     /// What a formula is; `None` where it cannot be told.
@@ -244,31 +254,13 @@ impl ConditionValues for ConditionSet<'_> {
         }
     }
 
-    fn value(&self, formula: &Formula, row: usize, unit: &Unit, of: ValueOf) -> f64 {
+    fn values(&self, formula: &Formula, unit: &Unit, of: ValueOf) -> ValuesOfRows<'_> {
         if self.conditions.unreadable {
-            return 1.0;
+            return Box::new(|_| 1.0);
         }
-        let form = number_form(self.check_units);
-        let row = self.conditions.rows.get(row).map_or(&[][..], Vec::as_slice);
-        let values: HashMap<String, f64> = self
-            .conditions
-            .quantities
-            .iter()
-            .zip(row)
-            .map(|(quantity, &value)| (quantity, value))
-            .chain(self.constants_of(formula).map(|(quantity, value)| (quantity, *value)))
-            .map(|(quantity, value)| (quantity.name.clone(), form.number(value, &quantity.unit)))
-            .collect();
-        let scope = self.scope_of(formula);
-        let value = formula.evaluate(&scope, &values).unwrap_or(f64::NAN);
-        match (form, of) {
-            (NumberForm::Declared, _) => value,
-            (_, ValueOf::Difference) => unit.from_si(value),
-            _ => {
-                let typing = formula.check_names(&scope).unwrap_or(Typing::ANY);
-                unit.value_from_si(value + shift(typing, unit, of).unwrap_or(f64::NAN))
-            }
-        }
+        let compiled = self.compiled(formula, unit, of);
+        let rows = &self.conditions.rows;
+        Box::new(move |row| compiled.at(rows.get(row).map_or(&[][..], Vec::as_slice)))
     }
 
     fn place(&self, name: &str) -> Option<usize> {

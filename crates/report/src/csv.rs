@@ -1,12 +1,14 @@
 //! One line for each output and row of conditions, in full precision, for spreadsheets.
 
+use std::fmt::Write as _;
 use std::io::{self, Write};
 
 use super::EvaluationReport;
 use super::answer::in_memory;
 use super::table::{one_line, stopped};
+use gumption_engine::model::{Output, Quantity};
+use gumption_engine::propagate::OutputEvaluation;
 use gumption_engine::propagate::gum::Dof;
-use gumption_engine::propagate::{OutputEvaluation, RowEvaluation};
 use gumption_engine::task::Task;
 
 const COLUMNS: [&str; 19] = [
@@ -58,9 +60,26 @@ pub fn write_csv(report: &EvaluationReport<'_>, mut out: impl Write) -> io::Resu
     let last = CAPABILITY.map(str::to_owned).into_iter().filter(|_| limited);
     let header: Vec<String> = names.chain(COLUMNS.map(str::to_owned)).chain(last).collect();
     writer.write_record(&header)?;
+    let outputs = &task.model.outputs;
+    let texts: Vec<OutputTexts> =
+        outputs.iter().map(|output| OutputTexts::of(task, output)).collect();
+    let mut cells = Cells { writer: &mut writer, text: String::new() };
     for row in &evaluation.rows {
-        for record in records(task, row, limited) {
-            writer.write_record(&record)?;
+        for (texts, figures) in texts.iter().zip(&row.outputs) {
+            if task.swept {
+                for place in 0..task.model.conditions.len() {
+                    cells.number(row.conditions.get(place).copied())?;
+                }
+            }
+            cells.texts([&texts.name, &texts.unit])?;
+            cells.figures(figures)?;
+            cells.texts([&texts.equation])?;
+            if limited {
+                let stated = figures.capability.as_deref();
+                cells.number(stated.map(|stated| stated.cmc))?;
+                cells.number(stated.map(|stated| stated.expanded_uncertainty))?;
+            }
+            cells.end()?;
         }
     }
     writer.flush()?;
@@ -77,28 +96,18 @@ fn heading(condition: &str) -> String {
     if taken { format!("condition_{condition}") } else { text(condition) }
 }
 
-fn records<'a>(
-    task: &'a Task,
-    row: &'a RowEvaluation,
-    limited: bool,
-) -> impl Iterator<Item = Vec<String>> + 'a {
-    let conditions: Vec<String> = (0..task.model.conditions.len())
-        .filter(|_| task.swept)
-        .map(|place| number(row.conditions.get(place).copied()))
-        .collect();
-    task.model.outputs.iter().zip(&row.outputs).map(move |(output, figures)| {
-        let mut record = conditions.clone();
-        record.push(text(&output.quantity.name));
-        record.push(text(output.quantity.unit.text()));
-        record.extend(cells(figures));
-        record.push(equation(task, &output.quantity.name));
-        if limited {
-            let stated = figures.capability.as_deref();
-            record.push(number(stated.map(|stated| stated.cmc)));
-            record.push(number(stated.map(|stated| stated.expanded_uncertainty)));
-        }
-        record
-    })
+/// What an output has in each of its lines.
+struct OutputTexts {
+    name: String,
+    unit: String,
+    equation: String,
+}
+
+impl OutputTexts {
+    fn of(task: &Task, output: &Output) -> Self {
+        let Quantity { name, unit, .. } = &output.quantity;
+        Self { name: text(name), unit: text(unit.text()), equation: equation(task, name) }
+    }
 }
 
 /// The equation of an output, if it has one.
@@ -108,33 +117,66 @@ fn equation(task: &Task, output: &str) -> String {
     own.map_or_else(String::new, |(_, equation)| text(equation))
 }
 
-fn cells(output: &OutputEvaluation) -> [String; 16] {
-    let gum = output.gum.as_ref();
-    let figures = output.monte_carlo.as_deref();
-    let interval = gum.and_then(|gum| gum.interval());
-    let dof = gum.and_then(|gum| match gum.dof {
-        Dof::Finite(dof) => Some(dof),
-        Dof::Infinite | Dof::Undefined => None,
-    });
-    let valid = output.validation.and_then(|validation| validation.gum_valid);
-    [
-        number(gum.map(|gum| gum.estimate)),
-        number(gum.map(|gum| gum.standard_uncertainty)),
-        number(dof),
-        number(gum.and_then(|gum| gum.coverage_factor)),
-        number(gum.and_then(|gum| gum.expanded_uncertainty())),
-        number(interval.map(|[low, _]| low)),
-        number(interval.map(|[_, high]| high)),
-        figures.map(|figures| figures.trials.to_string()).unwrap_or_default(),
-        number(figures.and_then(|figures| figures.estimate)),
-        number(figures.and_then(|figures| figures.standard_uncertainty)),
-        number(figures.map(|figures| figures.median)),
-        number(figures.map(|figures| figures.symmetric_interval[0])),
-        number(figures.map(|figures| figures.symmetric_interval[1])),
-        number(figures.map(|figures| figures.shortest_interval[0])),
-        number(figures.map(|figures| figures.shortest_interval[1])),
-        valid.map(|valid| valid.to_string()).unwrap_or_default(),
-    ]
+/// The cells of a line, written one after the other.
+struct Cells<'w, W: Write> {
+    writer: &'w mut csv::Writer<W>,
+    /// The text of a number, kept for the next one.
+    text: String,
+}
+
+impl<W: Write> Cells<'_, W> {
+    fn texts<const N: usize>(&mut self, texts: [&str; N]) -> csv::Result<()> {
+        texts.into_iter().try_for_each(|text| self.writer.write_field(text))
+    }
+
+    fn number(&mut self, value: Option<f64>) -> csv::Result<()> {
+        self.text.clear();
+        append_number(&mut self.text, value);
+        self.writer.write_field(&self.text)
+    }
+
+    fn figures(&mut self, output: &OutputEvaluation) -> csv::Result<()> {
+        let gum = output.gum.as_ref();
+        let figures = output.monte_carlo.as_deref();
+        let interval = gum.and_then(|gum| gum.interval());
+        let dof = gum.and_then(|gum| match gum.dof {
+            Dof::Finite(dof) => Some(dof),
+            Dof::Infinite | Dof::Undefined => None,
+        });
+        for value in [
+            gum.map(|gum| gum.estimate),
+            gum.map(|gum| gum.standard_uncertainty),
+            dof,
+            gum.and_then(|gum| gum.coverage_factor),
+            gum.and_then(|gum| gum.expanded_uncertainty()),
+            interval.map(|[low, _]| low),
+            interval.map(|[_, high]| high),
+        ] {
+            self.number(value)?;
+        }
+        self.texts([&figures.map(|figures| figures.trials.to_string()).unwrap_or_default()])?;
+        for value in [
+            figures.and_then(|figures| figures.estimate),
+            figures.and_then(|figures| figures.standard_uncertainty),
+            figures.map(|figures| figures.median),
+            figures.map(|figures| figures.symmetric_interval[0]),
+            figures.map(|figures| figures.symmetric_interval[1]),
+            figures.map(|figures| figures.shortest_interval[0]),
+            figures.map(|figures| figures.shortest_interval[1]),
+        ] {
+            self.number(value)?;
+        }
+        self.texts([match output.validation.and_then(|validation| validation.gum_valid) {
+            Some(true) => "true",
+            Some(false) => "false",
+            None => "",
+        }])
+    }
+
+    /// Ends the line.
+    fn end(&mut self) -> csv::Result<()> {
+        self.writer.write_record(None::<&[u8]>)
+    }
 }
 
 /// The records that `write` writes, as text (RFC 4180).
@@ -148,12 +190,18 @@ pub fn of_records(write: impl FnOnce(&mut csv::Writer<&mut Vec<u8>>) -> csv::Res
 
 /// Shortest text that reads back as the same number.
 pub(super) fn number(value: Option<f64>) -> String {
-    match value {
-        Some(value) if value.is_finite() => {
-            let text = format!("{value:?}");
-            text.strip_suffix(".0").map_or(text.clone(), str::to_owned)
-        }
-        _ => String::new(),
+    let mut text = String::new();
+    append_number(&mut text, value);
+    text
+}
+
+/// Appends that text; nothing where there is no number.
+fn append_number(text: &mut String, value: Option<f64>) {
+    let Some(value) = value.filter(|value| value.is_finite()) else { return };
+    // a String takes whatever is written
+    let _ = write!(text, "{value:?}");
+    if text.ends_with(".0") {
+        text.truncate(text.len() - 2);
     }
 }
 

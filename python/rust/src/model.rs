@@ -327,10 +327,8 @@ impl Model {
         py: Python<'py>,
         count: usize,
     ) -> PyResult<(Vec<Bound<'py, PyArray1<f64>>>, Vec<Bound<'py, PyArray1<f64>>>)> {
-        let stop = AtomicBool::new(false);
         let task = &self.file.task;
-        let control = Control::default().with_stop(&stop);
-        let found = supervised_within(py, &stop, || draws::draws(task, count, &control))?;
+        let found = at_once(py, || draws::draws(task, count))?;
         let columns =
             |of: Vec<Vec<f64>>| of.into_iter().map(|v| PyArray1::from_vec(py, v)).collect();
         Ok((columns(found.variables), columns(found.outputs)))

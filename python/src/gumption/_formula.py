@@ -57,18 +57,10 @@ _UFUNCS = {
 _BINDING = {"+": _SUM, "-": _SUM, "*": _PRODUCT, "/": _PRODUCT, "^": _POWER}
 
 
-_KNOWN: dict[str, bool] = {}
-
-
-def _is_known(call: str) -> bool:
-    """Whether formulas have a function."""
-    if call not in _KNOWN:
-        _KNOWN[call] = _is_accepted(call)
-    return _KNOWN[call]
-
-
-def _is_accepted(call: str) -> bool:
-    """The engine's own word."""
+@lru_cache(maxsize=None)
+def _is_known(name: str, count: int) -> bool:
+    """Whether formulas have a function of so many values: the engine's own word."""
+    call = f"{name}({', '.join(['x'] * count)})"
     probe = {
         "format": 1,
         "check_units": False,
@@ -268,18 +260,21 @@ def angle_of(symbol: str, operands: tuple[Term, ...]) -> float | None:
     if symbol in _GIVING_ANGLES:
         return 1.0
     if symbol in _KEEPING_ANGLES:
-        own = (one.angle for one in operands[_KEEPING_ANGLES[symbol] :])
-        return next((angle for angle in own if angle is not None), None)
+        for one in operands[_KEEPING_ANGLES[symbol] :]:
+            if (angle := one.angle) is not None:
+                return angle
+        return None
     if symbol not in ("*", "/"):
         return None
     first, second = operands
-    if first.angle is not None and second.angle is None:
+    of_first, of_second = first.angle, second.angle
+    if of_first is not None and of_second is None:
         by = _real(second.literal)
         if by == 0:
             return None
-        return first.angle * by if symbol == "*" else first.angle / by
-    if symbol == "*" and second.angle is not None and first.angle is None:
-        return second.angle * _real(first.literal)
+        return of_first * by if symbol == "*" else of_first / by
+    if symbol == "*" and of_second is not None and of_first is None:
+        return of_second * _real(first.literal)
     return None
 
 
@@ -352,13 +347,18 @@ def literal(of: Term, value: Any) -> Term:
 
 
 def _operands(values: Iterable[Any]) -> tuple[Term, ...]:
-    values = list(values)
+    values = tuple(values)
+    others = [value for value in values if not isinstance(value, Term)]
+    if not others:
+        return values
     of = next(value for value in values if isinstance(value, Term))
-    return tuple(v if isinstance(v, Term) else literal(of, v) for v in values)
+    return tuple([v if isinstance(v, Term) else literal(of, v) for v in values])
 
 
 def binary(operator: str, first: Any, second: Any) -> Any:
     """An operation of two values, of which one is a term."""
+    if isinstance(first, Term) and isinstance(second, Term):
+        return first._made(operator, (first, second))
     for value in (first, second):
         if isinstance(value, np.ndarray) and value.ndim:
             other = next(v for v in (first, second) if isinstance(v, Term))
@@ -366,7 +366,7 @@ def binary(operator: str, first: Any, second: Any) -> Any:
         if not isinstance(value, Term) and not np.isscalar(value) and not isinstance(value, np.ndarray):
             return NotImplemented
     operands = _operands([first, second])
-    if operator == "^" and not isinstance(second, Term):
+    if operator == "^" and operands[1] is not second:
         operands = (operands[0], _exponent(operands[0], _number(second, operands[0])))
     return operands[0]._made(operator, operands)
 
@@ -387,7 +387,7 @@ def _exponent(of: Term, value: complex) -> Term:
 def call(name: str, values: list[Any]) -> Any:
     """A function of values, of which one is a term."""
     operands = _operands(values)
-    if not _is_known(f"{name}({', '.join(['x'] * len(values))})"):
+    if not _is_known(name, len(values)):
         operands[0]._foreign(f"formulas have no function `{name}`")
     return operands[0]._made(name, operands)
 
@@ -429,7 +429,7 @@ class Writer:
             reached[one.number] = one
             for operand in one.operands:
                 uses[operand.number] = uses.get(operand.number, 0) + 1
-                left.append(operand)
+            left.extend(one.operands)
         # everything comes after what it is made of
         for number in sorted(reached):
             text, binding, depth = self._written(reached[number])
@@ -461,24 +461,25 @@ class Writer:
             text = self._name(one)
             return text, _PRODUCT if " " in text and text[0] != "(" else _ATOM, 0
         parts = [self._texts[operand.number] for operand in one.operands]
-        depth = max(depth for *_, depth in parts) + 1
+        depth = max([part[2] for part in parts]) + 1
         symbol = one.symbol
-
-        def within(part: tuple[str, int, int], binding: int) -> str:
-            return part[0] if part[1] >= binding else f"({part[0]})"
-
         if symbol == "-" and len(parts) == 1:
             # a sign before a number is part of it
-            return "-" + within(parts[0], _SIGN + 1), _SIGN, depth if one.operands[0].operands else 0
-        if symbol not in _OPERATORS.values():
-            return f"{symbol}({', '.join(text for text, *_ in parts)})", _ATOM, depth
+            return "-" + _within(parts[0], _SIGN + 1), _SIGN, depth if one.operands[0].operands else 0
+        if symbol not in _UFUNCS:
+            return f"{symbol}({', '.join([part[0] for part in parts])})", _ATOM, depth
         # to the left operations of the same kind need no parentheses, and to the right they do;
         # powers go from right to left, and comparisons do not chain
         binding = _BINDING.get(symbol, _COMPARISON)
-        left = within(parts[0], binding if symbol in "+-*/" else binding + 1)
-        right = within(parts[1], binding if symbol == "^" else binding + 1)
+        left = _within(parts[0], binding if symbol in "+-*/" else binding + 1)
+        right = _within(parts[1], binding if symbol == "^" else binding + 1)
         space = " " if binding <= _SUM else ""
         return f"{left}{space}{symbol}{space}{right}", binding, depth
+
+
+def _within(part: tuple[str, int, int], binding: int) -> str:
+    """A text within an operation that binds so tightly."""
+    return part[0] if part[1] >= binding else f"({part[0]})"
 
 
 def cut(formula: str) -> str:

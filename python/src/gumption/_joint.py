@@ -31,7 +31,7 @@ _NAME = re.compile(r"\[[^\]]*\]|\"[^\"]*\"|(?<![\w.])[^\W\d]\w*")
 
 def is_output(value: object) -> bool:
     """Whether it is an output of a result."""
-    return hasattr(value, "_as_input")
+    return not isinstance(value, Input) and hasattr(value, "_as_input")
 
 
 def identity_of(value: Any) -> object:

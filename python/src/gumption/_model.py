@@ -525,11 +525,14 @@ def _insert_expressions(
     return {**own, **leaves}, {**units, **dict.fromkeys(leaves, "1")}, leaves
 
 
+#: Made once, as making one takes longer than the text of a quantity.
+_ENCODER = json.JSONEncoder(ensure_ascii=False, allow_nan=False)
+
+
 def written(file: Mapping[str, Any]) -> str:
     """The text of a model file, of a line for each quantity."""
 
-    def text(value: Any) -> str:
-        return json.dumps(value, ensure_ascii=False, allow_nan=False)
+    text = _ENCODER.encode
 
     def member(key: str, value: Any) -> str:
         if not isinstance(value, Mapping) or not value:

@@ -202,8 +202,10 @@ def _refuse_columns(value: Any, name: str) -> None:
 def is_linked(value: Any) -> bool:
     """Whether it tells its correlations with others: a number of ``uncertainties`` or ``GTC``, or an input of
     which some are declared."""
+    if isinstance(value, Input):
+        return bool(value.links)
     inner = _inner(value)
-    return is_ufloat(inner) or is_gtc(inner) or (isinstance(value, Input) and bool(value.links))
+    return is_ufloat(inner) or is_gtc(inner)
 
 
 def as_known(value: Any, name: str) -> Any:
@@ -254,7 +256,7 @@ def shared(values: Mapping[str, Any]) -> list[tuple[str, str, float]]:
                     f"{declared[first, second]:g} and {r:g}"
                 )
     found += [(*pair, r) for pair, r in declared.items()]
-    named = [(name, _inner(value)) for name, value in values.items()]
+    named = [(name, _inner(value)) for name, value in values.items() if not isinstance(value, Input)]
     floats = [(name, value) for name, value in named if is_ufloat(value) and value.std_dev > 0]
     if len(floats) > 1:
         from uncertainties import correlation_matrix

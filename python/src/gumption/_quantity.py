@@ -11,7 +11,7 @@ import itertools
 import math
 from collections.abc import Callable, Iterable, Iterator, Mapping
 from functools import lru_cache
-from typing import TYPE_CHECKING, Any, NamedTuple, NoReturn, Union
+from typing import TYPE_CHECKING, Any, NamedTuple, NoReturn, Union, cast
 
 import numpy as np
 import numpy.typing as npt
@@ -99,16 +99,14 @@ class Quantity(Term):
     # terms
 
     def _made(self, symbol: str, operands: tuple[Term, ...]) -> Quantity:
-        given: list[Quantity] = []
         for operand in operands:
             if not isinstance(operand, Quantity):
                 raise TypeError(
                     "a model function has its quantities as arguments; make the quantity from outside an argument"
                 )
-            given.append(operand)
-        unit = _unit_of(symbol, given)
+        given = cast("tuple[Quantity, ...]", operands)
         kind = Comparison if symbol in _COMPARED else Expression
-        return kind(symbol, tuple(given), unit)
+        return kind(symbol, given, _unit_of(symbol, given))
 
     def _written(self, text: str, value: complex) -> Quantity:
         return Expression(text, (), "1", value)
@@ -330,15 +328,17 @@ class Expression(Quantity):
         super().__init__(symbol, operands, literal)
         self.unit = unit
         self._done: Result | None = None
-        self._of_complex = (
-            literal is not None and isinstance(literal, complex)
-            if not operands
-            else symbol not in _PARTS and any(operand._is_complex for operand in operands)
-        )
-        self._of_exact = all(operand._is_exact for operand in operands)
+        of_complex, of_exact = isinstance(literal, complex) and not operands, True
+        for operand in operands:
+            of_complex = of_complex or operand._is_complex
+            of_exact = of_exact and operand._is_exact
+        self._of_complex = of_complex and symbol not in _PARTS
+        self._of_exact = of_exact
         self._angle = angle = angle_of(symbol, operands) if operands else None
+        if angle is None:
+            return
         for factor, what in ((math.pi / 180, "to"), (180 / math.pi, "from")):
-            if angle is not None and is_about(angle, factor):
+            if is_about(angle, factor):
                 raise _gumption.ModelError(
                     f"`{self._shown()}` converts an angle {what} radians, but expressions compute with angles in "
                     "radians already, whatever their unit; leave the conversion out, and choose the unit of the "
@@ -527,7 +527,7 @@ def _shorthand(estimate: float, u: float) -> str:
     return f"{y}({u * 10**decimals:.0f})"
 
 
-def _unit_of(symbol: str, operands: list[Quantity]) -> str:
+def _unit_of(symbol: str, operands: tuple[Quantity, ...]) -> str:
     """The unit of the result of an operation, whose dimensions are checked."""
     units = [operand._unit for operand in operands]
     if symbol in _OF_NUMBERS:
@@ -562,7 +562,7 @@ def _unit_of(symbol: str, operands: list[Quantity]) -> str:
     return _first(operands, units)
 
 
-def _first(operands: list[Quantity], units: list[str]) -> str:
+def _first(operands: tuple[Quantity, ...], units: list[str]) -> str:
     """The unit of the first of several quantities of one dimension that is not a plain number."""
     return next((unit for of, unit in zip(operands, units) if of.literal is None), units[0])
 

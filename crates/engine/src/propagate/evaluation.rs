@@ -430,7 +430,7 @@ fn inherited(
 }
 
 /// Refuses trials of paired readings whose joint distribution has no covariance.
-fn paired_have_covariance(task: &Task, row: &Row) -> Result<(), EvaluationError> {
+pub(super) fn paired_have_covariance(task: &Task, row: &Row) -> Result<(), EvaluationError> {
     for (variable, distribution) in task.variables.iter().zip(row.distributions.iter()) {
         if let Distribution::Readings(readings) = &**distribution
             && let Some(error) = readings.without_covariance()

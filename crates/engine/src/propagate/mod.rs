@@ -55,7 +55,7 @@ pub use region_figures::{
     JointRegion, Region, RegionEvaluation, RegionValidation, SampledRegion, SmallestRegion,
 };
 pub use replay::{
-    convergence, first_trials, for_each_block, histograms, joint_ranks, quantiles,
+    convergence, first_draws, first_trials, for_each_block, histograms, joint_ranks, quantiles,
     quantiles_and_ranks,
 };
 pub use second_order::SecondOrder;

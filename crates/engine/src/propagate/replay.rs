@@ -1,11 +1,12 @@
 //! A finished run's trials generated again: for what needs more of them than an evaluation keeps.
 
-use super::evaluation::{in_pool, joint, reach};
+use super::evaluation::{in_pool, joint, paired_have_covariance, reach};
 use super::gum::Gum;
 use super::moment_order::moment_orders;
 use super::monte_carlo::{self, Histogram, MonteCarlo, QuantilesAndRanks, Request, RowTrials};
 use super::{Control, Evaluation, EvaluationError, gum};
-use crate::task::Task;
+use crate::number::CodePath;
+use crate::task::{Row, Task};
 
 /// Trials in the sample that represents all of them in a result file, at most.
 const MOST_ROWS: usize = 1 << 15;
@@ -191,6 +192,24 @@ pub fn first_trials(
         let trials = trials(task, row)?.filter(|_| count > 0);
         Ok(trials.and_then(|trials| monte_carlo::collected(&trials, count, control)))
     })?
+}
+
+/// The values of the program's variables (inputs, then conditions) in the first trials of a row, as a run
+/// draws them: a column for each variable, of `count` entries, or of as many as a block has.
+///
+/// # Errors
+/// Correlations that cannot be drawn, or paired readings without a covariance.
+pub fn first_draws(
+    task: &Task,
+    row: &Row,
+    count: usize,
+    path: CodePath,
+) -> Result<Vec<Vec<f64>>, EvaluationError> {
+    paired_have_covariance(task, row)?;
+    // the branch of a phase is a matter of the outputs
+    let estimates = vec![f64::NAN; task.model.outputs.len()];
+    let trials = RowTrials::new(task, row, &estimates, &joint(task, row)?);
+    Ok(trials.first_draws(path, row, count))
 }
 
 #[cfg(test)]

@@ -272,8 +272,9 @@ fn of_output(
     output: &OutputEvaluation,
     found: &mut Vec<Warning>,
 ) {
-    let at = at(task, named, row);
+    let at = || at(task, named, row);
     let Some(gum) = &output.gum else {
+        let at = at();
         push(found, Warning::new(name, fact!("gum-undefined", name, at = at.clone())));
         if let Some(monte_carlo) = &output.monte_carlo {
             of_extremes(name, &at, monte_carlo, found);
@@ -283,18 +284,20 @@ fn of_output(
     };
     if gum.dof == Dof::Undefined {
         let fact = match gum.coverage_factor {
-            Some(k) => fact!("gum-dof-undefined.stated", name, at = at.clone(), k),
-            None => fact!("gum-dof-undefined", name, at = at.clone()),
+            Some(k) => fact!("gum-dof-undefined.stated", name, at = at(), k),
+            None => fact!("gum-dof-undefined", name, at = at()),
         };
         push(found, Warning::new(name, fact));
     }
     let Some(monte_carlo) = &output.monte_carlo else {
         if let Some(second) = &output.second_order {
             let second = second_order(task, gum, second);
-            push(found, Warning::new(name, fact!("non-linear.second-order", name, at, second)));
+            let fact = fact!("non-linear.second-order", name, at = at(), second);
+            push(found, Warning::new(name, fact));
         }
         return;
     };
+    let at = at();
     of_extremes(name, &at, monte_carlo, found);
     of_heavy_tails(name, &at, output, monte_carlo, found);
     let spread = monte_carlo.standard_uncertainty.unwrap_or(gum.standard_uncertainty);

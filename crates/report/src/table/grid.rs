@@ -48,6 +48,11 @@ struct GridColumn {
 }
 
 impl GridColumn {
+    /// The cell of a row; nothing where it has none.
+    fn cell(&self, row: usize) -> &str {
+        self.cells.get(row).map_or("", String::as_str)
+    }
+
     /// The width below which words would break.
     fn word_width(&self) -> usize {
         if matches!(self.constraint, Some(ColumnConstraint::ContentWidth)) {
@@ -62,6 +67,11 @@ impl GridColumn {
         let lines = self.header.lines().chain(self.cells.iter().map(String::as_str));
         lines.map(|line| line.chars().count()).max().unwrap_or(0)
     }
+}
+
+/// Whether a text is one line of letters of one column each.
+fn is_plain(text: &str) -> bool {
+    text.bytes().all(|byte| (b' '..=b'~').contains(&byte))
 }
 
 impl Grid {
@@ -229,6 +239,59 @@ impl Grid {
         lines.map(|line| line + "\n").collect()
     }
 
+    /// The lines where nothing wraps; none where something may, or where letters are not of one column
+    /// each.
+    fn unwrapped(&self, width: usize, header: bool, rows: Range<usize>) -> Option<Vec<String>> {
+        let mut widths = Vec::with_capacity(self.columns.len());
+        for column in &self.columns {
+            let cells = column.cells.get(rows.start..rows.end.min(column.cells.len()))?;
+            if !column.header.is_ascii() || cells.iter().any(|cell| !is_plain(cell)) {
+                return None;
+            }
+            let header = column.header.lines().filter(|_| header).map(str::len).max();
+            let widest = cells.iter().map(String::len).max().max(header).unwrap_or(0);
+            widths.push(match column.constraint {
+                Some(ColumnConstraint::LowerBoundary(Width::Fixed(least))) => {
+                    widest.max(usize::from(least))
+                }
+                _ => widest,
+            });
+        }
+        let gap = usize::from(GAP);
+        let all = widths.iter().sum::<usize>() + widths.len().saturating_sub(1) * gap;
+        if widths.contains(&0) || all > width {
+            return None;
+        }
+        let line = |cell: &dyn Fn(&GridColumn) -> &str| {
+            let mut line = String::with_capacity(all);
+            let mut end = 0;
+            for (column, width) in self.columns.iter().zip(&widths) {
+                let text = cell(column);
+                let indent = match column.alignment {
+                    CellAlignment::Right => width - text.len(),
+                    _ => 0,
+                };
+                line.extend(std::iter::repeat_n(' ', end + indent - line.len()));
+                line += text;
+                end += width + gap;
+            }
+            line.truncate(line.trim_end().len());
+            line
+        };
+        let mut lines = Vec::with_capacity(rows.len() + 3);
+        if header {
+            let height = self.columns.iter().map(|column| column.header.lines().count()).max();
+            for place in 0..height.unwrap_or(0).max(1) {
+                lines.push(line(&|column| column.header.lines().nth(place).unwrap_or_default()));
+            }
+            lines.push(std::iter::repeat_n(LINE, all).collect());
+        }
+        for place in rows {
+            lines.push(line(&|column| column.cell(place)));
+        }
+        Some(lines)
+    }
+
     /// `words` are the least widths of squeezed columns.
     fn lines(
         &self,
@@ -237,6 +300,9 @@ impl Grid {
         rows: Range<usize>,
         words: Option<&[u16]>,
     ) -> Vec<String> {
+        if let Some(lines) = self.unwrapped(width, header, rows.clone()) {
+            return lines;
+        }
         let mut table = Table::new();
         let mut style = TableStyle::new()
             .header_lines(ContentLineStyle::none())
@@ -254,10 +320,10 @@ impl Grid {
         table.set_content_arrangement(ContentArrangement::Dynamic).set_width(width);
         let all = self.rows();
         for place in rows {
-            let cells = self.columns.iter().map(|column| {
-                let text = column.cells.get(place).map(String::as_str).unwrap_or_default();
-                Cell::new(text).set_alignment(column.alignment)
-            });
+            let cells = self
+                .columns
+                .iter()
+                .map(|column| Cell::new(column.cell(place)).set_alignment(column.alignment));
             let mut row = Row::from(cells.collect::<Vec<_>>());
             if self.footer && place + 1 == all {
                 row.max_height(1);

@@ -151,15 +151,7 @@ impl RowTrials {
         block: u64,
         workspace: &mut Workspace,
     ) {
-        let mut drawn = vec![Vec::with_capacity(BLOCK); self.varying.len()];
-        let wanted = WantedValues::All { drawn: &mut drawn };
-        path.run(BlockKernel { path, trials: self, block, workspace, wanted });
-        let mut drawn = drawn.into_iter();
-        let column = |bound: &Option<f64>| match bound {
-            Some(value) => vec![*value; BLOCK],
-            None => drawn.next().unwrap_or_default(),
-        };
-        let variables: Vec<Vec<f64>> = bound.iter().map(column).collect();
+        let variables = self.drawn((path, block), bound, BLOCK, workspace);
         let mut found = vec![vec![f64::NAN; BLOCK]; self.outputs()];
         function.evaluate(&variables, &mut found);
         let outputs = workspace.outputs.iter_mut().zip(found).zip(&self.branches);
@@ -171,6 +163,39 @@ impl RowTrials {
                 onto_branch(out, middle, turn);
             }
         }
+    }
+
+    /// The program's variables in the first `count` trials of a block: those that are drawn, and those that
+    /// are bound to a value.
+    fn drawn(
+        &self,
+        (path, block): (CodePath, u64),
+        bound: &[Option<f64>],
+        count: usize,
+        workspace: &mut Workspace,
+    ) -> Vec<Vec<f64>> {
+        let mut drawn =
+            vec![Vec::with_capacity(count.next_multiple_of(COLUMN)); self.varying.len()];
+        let wanted = WantedValues::All { drawn: &mut drawn, count };
+        path.run(BlockKernel { path, trials: self, block, workspace, wanted });
+        let mut drawn = drawn.into_iter();
+        let column = |bound: &Option<f64>| match bound {
+            Some(value) => vec![*value; count],
+            None => {
+                let mut column = drawn.next().unwrap_or_default();
+                column.truncate(count);
+                column
+            }
+        };
+        bound.iter().map(column).collect()
+    }
+
+    /// The program's variables in the first `count` trials, at most those of one block.
+    pub(crate) fn first_draws(&self, path: CodePath, row: &Row, count: usize) -> Vec<Vec<f64>> {
+        let known = row.distributions.iter().map(|distribution| distribution.constant());
+        let bound: Vec<Option<f64>> =
+            known.chain(row.conditions.iter().map(|value| Some(*value))).collect();
+        self.drawn((path, 0), &bound, count.min(BLOCK), &mut self.workspace())
     }
 
     /// The drawn values of the varying variables, in the order of the task's variables with
@@ -211,8 +236,8 @@ enum WantedValues<'a> {
     Outputs,
     /// The drawn values of all inputs in one column of trials, left in the registers.
     Inputs { column: usize },
-    /// The drawn values of all inputs in all trials.
-    All { drawn: &'a mut [Vec<f64>] },
+    /// The drawn values of all inputs in the first trials, as whole columns.
+    All { drawn: &'a mut [Vec<f64>], count: usize },
 }
 
 impl Kernel for BlockKernel<'_> {
@@ -242,9 +267,12 @@ impl Kernel for BlockKernel<'_> {
             if first == last {
                 return;
             }
-            if let WantedValues::All { drawn } = &mut wanted {
+            if let WantedValues::All { drawn, count } = &mut wanted {
                 for (values, &register) in drawn.iter_mut().zip(&trials.registers) {
                     values.extend(&registers[register].0);
+                }
+                if first + COLUMN >= *count {
+                    return;
                 }
                 continue;
             }
