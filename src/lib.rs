@@ -342,7 +342,7 @@ pub mod propagate {
         EvaluationError, GlobalRisks, Inherited, JointRegion, Noiseless, OutputEvaluation, Region,
         RegionEvaluation, RegionValidation, RowEvaluation, SampledRegion, Scatter, SecondOrder,
         SmallestRegion, convergence, evaluate, first_draws, first_trials, for_each_block,
-        histograms, quantiles, trial_hash, warnings,
+        histograms, is_brief, quantiles, trial_hash, warnings,
     };
 
     /// The law of propagation of uncertainty (JCGM 100).

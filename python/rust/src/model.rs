@@ -6,7 +6,7 @@ use std::sync::atomic::AtomicBool;
 
 use gumption::command::Failure;
 use gumption::file::{ModelFile, Override, ReadingsFile, bytes};
-use gumption::propagate::{Control, Evaluation, evaluate, warnings};
+use gumption::propagate::{Control, Evaluation, evaluate, is_brief, warnings};
 use gumption::report::Provenance;
 use gumption::task::{
     Coverage, MethodChoice, SettingsChanges, StatementMethod, StoppingRule, Task, Trials,
@@ -347,8 +347,13 @@ impl Model {
         let task = self.asked_task(py, &asked)?;
         let file = Arc::clone(&self.file);
         let counted = progress.is_some();
+        let is_brief = progress.is_none() && function.is_none() && is_brief(&task);
         let work = move |watch: &Watch| evaluated(&file, task, &asked, counted, function, watch);
-        let found = match supervised(py, progress, work)? {
+        let found = match is_brief {
+            true => at_once(py, || work(&Watch::default()))?,
+            false => supervised(py, progress, work)?,
+        };
+        let found = match found {
             Ok(found) => found,
             Err(Failed::Python(raised)) => return Err(raised),
             Err(Failed::Evaluation(failure)) => return Err(failed(py, &failure)),

@@ -87,6 +87,9 @@ pub fn in_pool<R: Send>(
     work: impl FnOnce() -> R + Send,
 ) -> Result<R, EvaluationError> {
     task.check().map_err(|error| EvaluationError::Task(Box::new(error)))?;
+    if is_brief(task) {
+        return Ok(work());
+    }
     let program = &task.model.program;
     let columns = size_of::<Column>() * (program.variables() + program.operations())
         + size_of::<[f64; BLOCK]>() * program.outputs();
@@ -98,6 +101,19 @@ pub fn in_pool<R: Send>(
     }
     Ok(pool.install(work))
 }
+
+/// Whether a task takes no longer than waking another thread does: one row of a few outputs by the law of
+/// propagation. The calling thread evaluates it, and no other.
+pub fn is_brief(task: &Task) -> bool {
+    let settings = &task.settings;
+    task.rows.len() == 1
+        && (settings.trials, settings.method) == (Trials::Fixed(0), None)
+        && task.model.outputs.len() < gum::MANY_OUTPUTS
+        && task.model.program.operations() < MOST_BRIEF_OPERATIONS
+}
+
+/// With as many operations a budget takes some hundred microseconds.
+const MOST_BRIEF_OPERATIONS: usize = 1000;
 
 /// Among how many rows at most the memory for kept values is divided.
 pub(super) const ROWS_AT_A_TIME: usize = 16;

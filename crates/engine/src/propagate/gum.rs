@@ -247,7 +247,7 @@ impl<'a> AtEstimates<'a> {
 }
 
 /// From so many outputs on their correlations are worth the threads of the pool.
-const MANY_OUTPUTS: usize = 64;
+pub(super) const MANY_OUTPUTS: usize = 64;
 
 impl GumRow {
     /// The sensitivity coefficients of an output.

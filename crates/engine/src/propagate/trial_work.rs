@@ -26,3 +26,27 @@ pub(super) fn trial_work(task: &Task) -> u64 {
     let operations = task.model.program.operations() as u64 + of_fits;
     (operations / PLAIN).max(1)
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::distribution::Input;
+
+    fn work(equation: &str) -> u64 {
+        let task = Task::builder("work")
+            .input("x", Input::normal(1.0, 0.1, "1").unwrap())
+            .equation("y", equation)
+            .output("y", "1")
+            .build()
+            .unwrap();
+        trial_work(&task)
+    }
+
+    /// A product, a sine and a sum for each of 300 terms, but for the first sum.
+    #[test]
+    fn a_long_formula_counts_as_several_trials() {
+        let terms: Vec<String> = (0..300).map(|term| format!("sin({term}.5*x)")).collect();
+        assert_eq!(work("2*x + 1"), 1);
+        assert_eq!(work(&terms.join(" + ")), (3 * 300 - 1) / PLAIN);
+    }
+}

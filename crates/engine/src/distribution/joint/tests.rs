@@ -273,7 +273,7 @@ fn paired_readings_are_a_multivariate_t() {
     }
     // the second less its regression on the first is uncorrelated with it
     let (x, y) = (&whitened[0], &whitened[1]);
-    let r = joint.groups[0].factor[crate::linalg::packed::triangle(1)];
+    let r = joint.groups[0].factor[packed::triangle(1)];
     let slope = r * (variances[1] / variances[0]).sqrt();
     let rest: Vec<f64> = y.iter().zip(x).map(|(y, x)| (y - slope * x).powi(2)).collect();
     let squares: Vec<f64> = x.iter().map(|x| x * x).collect();

@@ -1,15 +1,19 @@
-//! The filter of the accumulation with AVX2 instructions: the compiler does not find that values are
-//! moved together by a permutation. The same values in the same order as in the plain loop.
+//! The inner loops of the accumulation with AVX2 instructions: the compiler does not find that values are
+//! moved together by a permutation, and splits sums over lanes. The same operations in the same order as
+//! the plain loops, so the same bits.
 #![cfg(target_arch = "x86_64")]
 #![allow(unsafe_code)]
 
 use std::arch::x86_64::{
-    __m256i, _CMP_GE_OQ, _CMP_LE_OQ, _CMP_LT_OQ, _mm256_and_pd, _mm256_castpd_ps,
-    _mm256_castpd_si256, _mm256_castps_pd, _mm256_cmp_pd, _mm256_loadu_pd, _mm256_loadu_si256,
-    _mm256_movemask_pd, _mm256_or_pd, _mm256_permutevar8x32_ps, _mm256_set1_pd,
-    _mm256_setzero_si256, _mm256_storeu_pd, _mm256_storeu_si256, _mm256_sub_epi64,
+    __m256d, __m256i, _CMP_GE_OQ, _CMP_LE_OQ, _CMP_LT_OQ, _mm256_add_pd, _mm256_and_pd,
+    _mm256_castpd_ps, _mm256_castpd_si256, _mm256_castps_pd, _mm256_cmp_pd, _mm256_loadu_pd,
+    _mm256_loadu_si256, _mm256_movemask_pd, _mm256_mul_pd, _mm256_or_pd, _mm256_permutevar8x32_ps,
+    _mm256_set1_pd, _mm256_setzero_pd, _mm256_setzero_si256, _mm256_storeu_pd, _mm256_storeu_si256,
+    _mm256_sub_epi64, _mm256_sub_pd,
 };
 
+use super::plan::{LANES, Reference};
+use super::sums::add_powers;
 use super::windows::Windows;
 
 /// Values in a register.
@@ -87,4 +91,40 @@ pub(super) fn keep(block: &[f64], windows: &Windows, kept: &mut Vec<f64>) -> u64
     unsafe { _mm256_storeu_si256(lanes.as_mut_ptr().cast::<__m256i>(), below) };
     let of_rest = rest.iter().filter(|value| **value < windows.median_low).count() as u64;
     lanes.iter().sum::<u64>() + of_rest
+}
+
+/// For the powers 1 to 4 of the values' distances from the reference the sum in each lane.
+///
+/// # Safety
+/// As [`keep`].
+#[target_feature(enable = "avx2")]
+pub(super) fn powers(values: &[f64], reference: Reference) -> [[f64; LANES]; 4] {
+    const REGISTERS: usize = LANES / WIDTH;
+    let middle = _mm256_set1_pd(reference.middle);
+    let inverse = _mm256_set1_pd(1.0 / reference.scale);
+    let mut sums: [[__m256d; REGISTERS]; 4] = [[_mm256_setzero_pd(); REGISTERS]; 4];
+    let (chunks, rest) = values.as_chunks::<LANES>();
+    // no closures and no iterators over registers: they would not be compiled for these instructions
+    for chunk in chunks {
+        for register in 0..REGISTERS {
+            // SAFETY: the chunk has as many values as the registers together.
+            let value = unsafe { _mm256_loadu_pd(chunk.as_ptr().add(register * WIDTH)) };
+            let d = _mm256_mul_pd(_mm256_sub_pd(value, middle), inverse);
+            let d2 = _mm256_mul_pd(d, d);
+            sums[0][register] = _mm256_add_pd(sums[0][register], d);
+            sums[1][register] = _mm256_add_pd(sums[1][register], d2);
+            sums[2][register] = _mm256_add_pd(sums[2][register], _mm256_mul_pd(d2, d));
+            sums[3][register] = _mm256_add_pd(sums[3][register], _mm256_mul_pd(d2, d2));
+        }
+    }
+    let mut lanes = [[0.0; LANES]; 4];
+    for power in 0..lanes.len() {
+        for register in 0..REGISTERS {
+            let to = lanes[power][register * WIDTH..].as_mut_ptr();
+            // SAFETY: the lanes have as many places as the registers together.
+            unsafe { _mm256_storeu_pd(to, sums[power][register]) };
+        }
+    }
+    add_powers(&mut lanes, rest, reference);
+    lanes
 }

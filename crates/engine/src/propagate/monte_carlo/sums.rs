@@ -1,9 +1,9 @@
 //! Sums of powers of the trials, added up in a fixed order about a pilot value.
 #![allow(unsafe_code)] // instructions of a path that the machine has
 
-#[cfg(target_arch = "x86_64")]
-use super::avx512;
 use super::plan::{LANES, Reference, pairwise};
+#[cfg(target_arch = "x86_64")]
+use super::{avx2, avx512};
 use crate::number::CodePath;
 #[cfg(target_arch = "x86_64")]
 use crate::number::Instructions;
@@ -56,33 +56,33 @@ impl Sums {
 #[inline(always)]
 fn powers(path: CodePath, values: &[f64], reference: Reference) -> [[f64; LANES]; 4] {
     #[cfg(target_arch = "x86_64")]
-    if path.instructions() == Instructions::Avx512 {
+    match path.instructions() {
         // SAFETY: the machine has the instructions of a path.
-        return unsafe { avx512::powers(values, reference) };
+        Instructions::Avx512 => return unsafe { avx512::powers(values, reference) },
+        // SAFETY: as above.
+        Instructions::Avx2 => return unsafe { avx2::powers(values, reference) },
+        Instructions::Baseline => {}
     }
     let _ = path;
-    let inverse = 1.0 / reference.scale;
     let mut lanes = [[0.0; LANES]; 4];
-    // chunks of known length: the compiler makes registers of their lanes
-    let (chunks, rest) = values.as_chunks::<LANES>();
-    for chunk in chunks {
-        for (i, &value) in chunk.iter().enumerate() {
-            add_powers(&mut lanes, i, (value - reference.middle) * inverse);
-        }
-    }
-    for (i, &value) in rest.iter().enumerate() {
-        add_powers(&mut lanes, i, (value - reference.middle) * inverse);
+    for chunk in values.chunks(LANES) {
+        add_powers(&mut lanes, chunk, reference);
     }
     lanes
 }
 
+/// Adds a value to each lane, from the first on.
 #[inline(always)]
-fn add_powers(lanes: &mut [[f64; LANES]; 4], i: usize, d: f64) {
-    let d2 = d * d;
-    lanes[0][i] += d;
-    lanes[1][i] += d2;
-    lanes[2][i] += d2 * d;
-    lanes[3][i] += d2 * d2;
+pub(super) fn add_powers(lanes: &mut [[f64; LANES]; 4], values: &[f64], reference: Reference) {
+    let inverse = 1.0 / reference.scale;
+    for (i, &value) in values.iter().enumerate() {
+        let d = (value - reference.middle) * inverse;
+        let d2 = d * d;
+        lanes[0][i] += d;
+        lanes[1][i] += d2;
+        lanes[2][i] += d2 * d;
+        lanes[3][i] += d2 * d2;
+    }
 }
 
 #[cfg(test)]

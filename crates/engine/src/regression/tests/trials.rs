@@ -92,3 +92,36 @@ fn both_coordinates_are_drawn() {
         }
     }
 }
+
+/// A fit that begins at the linearized one ends at the fit of the same points from nothing, to the 1e-7 of a
+/// standard uncertainty at which trials end; a tenth of the range as uncertainties makes the steps many.
+#[test]
+fn fits_from_the_linearized_one_are_those_from_nothing() {
+    let x: Vec<f64> = (0..8).map(f64::from).collect();
+    let y: Vec<f64> = x.iter().map(|x| 1.0 + 0.5 * x + 0.03 * x * x).collect();
+    let made = |x: Vec<f64>, y: Vec<f64>| {
+        Points::new(x, y).with_x(squares(&[0.3; 8])).with_y(squares(&[0.2; 8]))
+    };
+    let curve = Curve::polynomial(2);
+    let of = |points: Points| Regression::of("curve", &curve, &Arc::new(points), &[]).unwrap();
+    let fit = of(made(x.clone(), y.clone()));
+    let mut solver = fit.solver();
+    let near = solver.linearized(&fit.inner.estimates, &fit.points, 1e-7).unwrap();
+    for turn in 1..=20 {
+        let moved = |values: &[f64], by: f64| -> Vec<f64> {
+            let of = |(place, value): (usize, &f64)| {
+                value + by * (((place * 7 + turn * 5) % 11) as f64 / 5.0 - 1.0)
+            };
+            values.iter().enumerate().map(of).collect()
+        };
+        let (x, y) = (moved(&x, 0.3), moved(&y, -0.2));
+        solver.fit_near(&near, &x, &y, 1e-7).unwrap();
+        let found = fit.outer(&solver.parameters, &fit.powers());
+        let other = of(made(x, y));
+        for (k, found) in found.into_iter().enumerate() {
+            let off = (found - other.estimate(k)) / fit.standard_uncertainty(k);
+            // the abscissae of the two are over other ranges: rounding besides
+            assert!(off.abs() < 2e-7, "{turn}, {k}: {off:e}");
+        }
+    }
+}
