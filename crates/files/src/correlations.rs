@@ -214,33 +214,31 @@ impl CorrelationsReader<'_> {
     }
 
     fn add(&mut self, a: usize, b: usize, r: f64, span: &Range<usize>) {
-        let pair = (a.min(b), a.max(b));
-        if let Some(mistake) = self.mistake(pair, r) {
+        if let Some(mistake) = self.mistake(a, b, r) {
             self.log.report(span, mistake);
         } else {
-            self.pairs.insert(pair);
-            self.push(pair, r, span);
+            self.pairs.insert((a.min(b), a.max(b)));
+            self.push(a, b, r, span);
         }
     }
 
-    fn push(&mut self, (first, second): (usize, usize), coefficient: f64, span: &Range<usize>) {
-        self.found.push(Correlation { first, second, coefficient });
+    fn push(&mut self, a: usize, b: usize, coefficient: f64, span: &Range<usize>) {
+        self.found.push(Correlation { first: a.min(b), second: a.max(b), coefficient });
         self.places.push(span.clone());
     }
 
-    /// Why two variables, in order, cannot have this coefficient.
-    fn mistake(&self, pair: (usize, usize), r: f64) -> Option<DiagnosticKind> {
-        let (first, second) = pair;
+    /// Why two variables cannot have this coefficient.
+    fn mistake(&self, a: usize, b: usize, r: f64) -> Option<DiagnosticKind> {
         let name = |v: usize| self.inputs.variables.get(v).map_or("", |v| v.name.as_str());
         let reason = if !(-1.0..=1.0).contains(&r) {
             format!("the correlation coefficient is {r}, but must be from -1 to 1")
-        } else if first == second {
-            format!("`{}` is correlated with itself", name(first))
-        } else if links::is_linked(self.inputs, first, second) {
-            let (first, second) = (name(first).to_owned(), name(second).to_owned());
+        } else if a == b {
+            format!("`{}` is correlated with itself", name(a))
+        } else if links::is_linked(self.inputs, a, b) {
+            let (first, second) = (name(a).to_owned(), name(b).to_owned());
             return Some(DiagnosticKind::SavedCorrelation { first, second });
-        } else if self.pairs.contains(&pair) {
-            format!("the correlation of `{}` and `{}` is given twice", name(first), name(second))
+        } else if self.pairs.contains(&(a.min(b), a.max(b))) {
+            format!("the correlation of `{}` and `{}` is given twice", name(a), name(b))
         } else {
             return None;
         };
@@ -323,11 +321,10 @@ impl CorrelationsReader<'_> {
             names.iter().zip(spans).map(|(name, span)| self.variable(name, span)).collect();
         for (j, b) in places.iter().enumerate() {
             for (i, a) in places.iter().enumerate().take(j) {
-                let (Some(&a), Some(&b)) = (a.as_ref(), b.as_ref()) else { continue };
-                let pair = (a.min(b), a.max(b));
-                match self.mistake(pair, entry(i, j)) {
+                let (Some(a), Some(b)) = (*a, *b) else { continue };
+                match self.mistake(a, b, entry(i, j)) {
                     Some(mistake) => self.log.report(place, mistake),
-                    None => self.push(pair, entry(i, j), place),
+                    None => self.push(a, b, entry(i, j), place),
                 }
             }
         }

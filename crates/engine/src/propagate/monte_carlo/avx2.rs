@@ -102,27 +102,26 @@ pub(super) fn powers(values: &[f64], reference: Reference) -> [[f64; LANES]; 4] 
     const REGISTERS: usize = LANES / WIDTH;
     let middle = _mm256_set1_pd(reference.middle);
     let inverse = _mm256_set1_pd(1.0 / reference.scale);
-    let mut sums: [[__m256d; REGISTERS]; 4] = [[_mm256_setzero_pd(); REGISTERS]; 4];
+    let mut sums: [[__m256d; 4]; REGISTERS] = [[_mm256_setzero_pd(); 4]; REGISTERS];
     let (chunks, rest) = values.as_chunks::<LANES>();
-    // no closures and no iterators over registers: they would not be compiled for these instructions
     for chunk in chunks {
-        for register in 0..REGISTERS {
+        for (register, sums) in sums.iter_mut().enumerate() {
             // SAFETY: the chunk has as many values as the registers together.
             let value = unsafe { _mm256_loadu_pd(chunk.as_ptr().add(register * WIDTH)) };
             let d = _mm256_mul_pd(_mm256_sub_pd(value, middle), inverse);
             let d2 = _mm256_mul_pd(d, d);
-            sums[0][register] = _mm256_add_pd(sums[0][register], d);
-            sums[1][register] = _mm256_add_pd(sums[1][register], d2);
-            sums[2][register] = _mm256_add_pd(sums[2][register], _mm256_mul_pd(d2, d));
-            sums[3][register] = _mm256_add_pd(sums[3][register], _mm256_mul_pd(d2, d2));
+            let terms = [d, d2, _mm256_mul_pd(d2, d), _mm256_mul_pd(d2, d2)];
+            for (sum, term) in sums.iter_mut().zip(terms) {
+                *sum = _mm256_add_pd(*sum, term);
+            }
         }
     }
     let mut lanes = [[0.0; LANES]; 4];
-    for power in 0..lanes.len() {
-        for register in 0..REGISTERS {
-            let to = lanes[power][register * WIDTH..].as_mut_ptr();
+    for (register, sums) in sums.iter().enumerate() {
+        for (lanes, sum) in lanes.iter_mut().zip(sums) {
+            let to = lanes[register * WIDTH..].as_mut_ptr();
             // SAFETY: the lanes have as many places as the registers together.
-            unsafe { _mm256_storeu_pd(to, sums[power][register]) };
+            unsafe { _mm256_storeu_pd(to, *sum) };
         }
     }
     add_powers(&mut lanes, rest, reference);
