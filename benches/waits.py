@@ -208,16 +208,23 @@ class Wait:
         return used(command, folder, {**os.environ, "PYTHONPATH": os.path.abspath(tool)})
 
 
-def waits(folder, quick):
-    minutes = 1 if quick else MINUTES
-    draws = 2 if quick else DRAWS
-    count = ROWS // 100 if quick else ROWS
-    linked = CORRELATED // 10 if quick else CORRELATED
+def sizes(quick):
+    """Minutes, draws, rows and correlated inputs."""
+    return (1, 2, ROWS // 100, CORRELATED // 10) if quick else (MINUTES, DRAWS, ROWS, CORRELATED)
+
+
+def prepare(folder, quick):
+    """The files of all waits."""
+    minutes, _, count, linked = sizes(quick)
     recording(folder, minutes)
     laboratories(folder)
     fits(folder)
     rows(folder, count)
     correlated(folder, linked)
+
+
+def waits(folder, quick):
+    minutes, draws, count, linked = sizes(quick)
     models = Path("models").resolve()
     plane = str(models / "inclined_plane_spurious.json")
     return [
@@ -259,14 +266,17 @@ def used(command, folder, env=None):
     return {"cpu_s": seconds, "mb": spent.ru_maxrss * 1024 / 1e6}
 
 
-def measured(programs, packages, rounds, quick, say):
+def measured(programs, packages, rounds, quick):
     """For each wait what each program or package used in each run; both by the version's name. A program
     that has not the command, or refuses it, has none."""
     done = []
     with tempfile.TemporaryDirectory() as name:
         folder = Path(name)
+        # by another process: a command begins with the memory of the one that starts it
+        command = [sys.executable, os.path.abspath(__file__), "--prepare", name]
+        subprocess.run([*command, *(["--quick"] if quick else [])], check=True)
         for wait in waits(folder, quick):
-            say(wait.what)
+            print(wait.what, file=sys.stderr, flush=True)
             tools = programs if wait.task is None else packages
             runs = {version: [] for version in tools}
             for _ in range(rounds):
@@ -296,15 +306,23 @@ def main():
     parser.add_argument("--python-before", help="that of an earlier version")
     parser.add_argument("--rounds", type=int, default=3)
     parser.add_argument("--quick", action="store_true")
+    parser.add_argument("--json", action="store_true", help="all runs as JSON")
     parser.add_argument("--task", nargs="+", help=argparse.SUPPRESS)
+    parser.add_argument("--prepare", type=Path, help=argparse.SUPPRESS)
     arguments = parser.parse_args()
     if arguments.task:
         name, *counts = arguments.task
         print({"budget": budget_in_python, "rows": rows_in_python}[name](*map(int, counts)))
         return
+    if arguments.prepare:
+        prepare(arguments.prepare, arguments.quick)
+        return
     programs = versions(arguments.before, arguments.program)
     packages = versions(arguments.python_before, arguments.python)
-    found = measured(programs, packages, arguments.rounds, arguments.quick, lambda what: None)
+    found = measured(programs, packages, arguments.rounds, arguments.quick)
+    if arguments.json:
+        print(json.dumps(found))
+        return
     for wait in found:
         cells = [
             f"{name} {middle(runs, 'cpu_s'):.4g} s, {middle(runs, 'mb'):.0f} MB" if runs else f"{name} refused"

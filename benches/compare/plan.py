@@ -1,5 +1,6 @@
 """What is measured."""
 
+import json
 import os
 import resource
 import statistics
@@ -22,8 +23,7 @@ class Plan:
         self.binary, self.command = workload_binary, os.path.abspath(command_binary)
         self.paths, self.quick = paths, options.quick
         self.most_rounds = options.rounds
-        self.programs = waits.versions(options.before, command_binary)
-        self.packages = waits.versions(options.python_before, options.python)
+        self.options = options
         self.best = paths[-1]
 
     def engine(self, name, workload, trials, threads=1, path=None, memory=64):
@@ -231,7 +231,12 @@ class Plan:
 
     def waits(self):
         """What users wait for, and the same of an earlier version if there is one."""
-        return waits.measured(self.programs, self.packages, self.rounds(3), self.quick, self.say)
+        command = [sys.executable, waits.__file__, "--json", "--program", self.command]
+        command += ["--rounds", str(self.rounds(3)), *(["--quick"] if self.quick else [])]
+        for name in ("before", "python", "python_before"):
+            if tool := getattr(self.options, name):
+                command += [f"--{name.replace('_', '-')}", tool]
+        return json.loads(subprocess.run(command, stdout=subprocess.PIPE, check=True).stdout)
 
     def parts(self):
         """What is measured, by name."""

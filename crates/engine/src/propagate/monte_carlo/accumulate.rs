@@ -116,6 +116,7 @@ impl Kernel for AccumulateKernel<'_> {
             out.below_median += keep(path, block, &plan.windows, &mut out.kept);
         }
         products::add(
+            path,
             values,
             count,
             plans,

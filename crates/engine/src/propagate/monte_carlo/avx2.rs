@@ -13,14 +13,18 @@ use std::arch::x86_64::{
 };
 
 use super::plan::{LANES, Reference};
+use super::products::{Chunks, Products, TOGETHER};
 use super::sums::add_powers;
 use super::windows::Windows;
 
 /// Values in a register.
 const WIDTH: usize = 4;
 
+/// Registers of all lanes of a sum.
+const REGISTERS: usize = LANES / WIDTH;
+
 /// For each set of kept values (a bit each) their halves first, in order; the others do not matter.
-const TOGETHER: [[u32; 2 * WIDTH]; 1 << WIDTH] = {
+const KEPT_FIRST: [[u32; 2 * WIDTH]; 1 << WIDTH] = {
     let mut together = [[0; 2 * WIDTH]; 1 << WIDTH];
     let mut set = 0;
     while set < together.len() {
@@ -76,7 +80,7 @@ pub(super) fn keep(block: &[f64], windows: &Windows, kept: &mut Vec<f64>) -> u64
         let keep = _mm256_or_pd(_mm256_or_pd(in_low, in_median), in_high);
         let set = _mm256_movemask_pd(keep) as usize;
         // SAFETY: eight indices stand there.
-        let order = unsafe { _mm256_loadu_si256(TOGETHER[set].as_ptr().cast::<__m256i>()) };
+        let order = unsafe { _mm256_loadu_si256(KEPT_FIRST[set].as_ptr().cast::<__m256i>()) };
         let together = _mm256_permutevar8x32_ps(_mm256_castpd_ps(value), order);
         // SAFETY: the room for a whole block and four more was reserved, and at most a block's values
         // are kept, so that four from `length` on are within the capacity.
@@ -99,7 +103,6 @@ pub(super) fn keep(block: &[f64], windows: &Windows, kept: &mut Vec<f64>) -> u64
 /// As [`keep`].
 #[target_feature(enable = "avx2")]
 pub(super) fn powers(values: &[f64], reference: Reference) -> [[f64; LANES]; 4] {
-    const REGISTERS: usize = LANES / WIDTH;
     let middle = _mm256_set1_pd(reference.middle);
     let inverse = _mm256_set1_pd(1.0 / reference.scale);
     let mut sums: [[__m256d; 4]; REGISTERS] = [[_mm256_setzero_pd(); 4]; REGISTERS];
@@ -126,4 +129,39 @@ pub(super) fn powers(values: &[f64], reference: Reference) -> [[f64; LANES]; 4] 
     }
     add_powers(&mut lanes, rest, reference);
     lanes
+}
+
+/// For each two outputs the sum of the products of their values in each lane.
+///
+/// # Safety
+/// As [`keep`].
+#[target_feature(enable = "avx2")]
+pub(super) fn products(a: Chunks<'_>, b: Chunks<'_>) -> Products {
+    let mut sums = [[[_mm256_setzero_pd(); REGISTERS]; TOGETHER]; TOGETHER];
+    for (((a0, a1), b0), b1) in a[0].iter().zip(a[1]).zip(b[0]).zip(b[1]) {
+        for (sums, a) in sums.iter_mut().zip([a0, a1]) {
+            for (sums, b) in sums.iter_mut().zip([b0, b1]) {
+                for (register, sum) in sums.iter_mut().enumerate() {
+                    // SAFETY: a chunk has as many values as the registers together.
+                    let [a, b] = unsafe {
+                        [
+                            _mm256_loadu_pd(a.as_ptr().add(register * WIDTH)),
+                            _mm256_loadu_pd(b.as_ptr().add(register * WIDTH)),
+                        ]
+                    };
+                    *sum = _mm256_add_pd(*sum, _mm256_mul_pd(a, b));
+                }
+            }
+        }
+    }
+    let mut products = [[[0.0; LANES]; TOGETHER]; TOGETHER];
+    for (products, sums) in products.iter_mut().zip(sums) {
+        for (lanes, sums) in products.iter_mut().zip(sums) {
+            for (to, sum) in lanes.chunks_exact_mut(WIDTH).zip(sums) {
+                // SAFETY: the part has as many places as the register.
+                unsafe { _mm256_storeu_pd(to.as_mut_ptr(), sum) };
+            }
+        }
+    }
+    products
 }

@@ -13,6 +13,7 @@ use std::arch::x86_64::{
 
 use super::bucket_partition::{BucketLayout, ROUND};
 use super::plan::{LANES, Reference};
+use super::products::{Chunks, Products, TOGETHER};
 use super::windows::Windows;
 
 /// The lanes of a chunk that hold a value.
@@ -157,4 +158,32 @@ pub(super) fn powers(values: &[f64], reference: Reference) -> [[f64; LANES]; 4] 
         unsafe { _mm512_storeu_pd(lanes.as_mut_ptr(), sum) };
     }
     lanes
+}
+
+/// For each two outputs the sum of the products of their values in each lane.
+///
+/// # Safety
+/// As [`keep`].
+#[target_feature(enable = "avx512f,avx512dq,avx512vl,avx512bw,popcnt")]
+pub(super) fn products(a: Chunks<'_>, b: Chunks<'_>) -> Products {
+    let mut sums = [[_mm512_setzero_pd(); TOGETHER]; TOGETHER];
+    for (((a0, a1), b0), b1) in a[0].iter().zip(a[1]).zip(b[0]).zip(b[1]) {
+        for (sums, a) in sums.iter_mut().zip([a0, a1]) {
+            // SAFETY: a chunk has eight values.
+            let a = unsafe { _mm512_loadu_pd(a.as_ptr()) };
+            for (sum, b) in sums.iter_mut().zip([b0, b1]) {
+                // SAFETY: as above.
+                let b = unsafe { _mm512_loadu_pd(b.as_ptr()) };
+                *sum = _mm512_add_pd(*sum, _mm512_mul_pd(a, b));
+            }
+        }
+    }
+    let mut products = [[[0.0; LANES]; TOGETHER]; TOGETHER];
+    for (products, sums) in products.iter_mut().zip(sums) {
+        for (lanes, sum) in products.iter_mut().zip(sums) {
+            // SAFETY: there are eight lanes.
+            unsafe { _mm512_storeu_pd(lanes.as_mut_ptr(), sum) };
+        }
+    }
+    products
 }

@@ -59,7 +59,7 @@ impl Kernel for SumKernel<'_> {
         for ((plan, sums), values) in plans.iter().zip(sums.iter_mut()).zip(values) {
             sums.add(path, &values[..count], plan.reference);
         }
-        products::add(values, count, plans, sums.iter_mut());
+        products::add(path, values, count, plans, sums.iter_mut());
     }
 }
 

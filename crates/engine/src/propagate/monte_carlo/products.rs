@@ -1,12 +1,18 @@
 //! Sums of products of outputs: a number for each pair of them. Of many outputs they are added up in
 //! waves of chunks, always in the order of the chunks, so that few sets of them are held at a time
 //! and the size of the waves does not show in the figures.
+#![allow(unsafe_code)] // instructions of a path that the machine has
 
 use std::ops::Range;
 
 use super::plan::{LANES, Plan, pairwise};
 use super::sums::Sums;
+#[cfg(target_arch = "x86_64")]
+use super::{avx2, avx512};
 use crate::distribution::BLOCK;
+use crate::number::CodePath;
+#[cfg(target_arch = "x86_64")]
+use crate::number::Instructions;
 
 /// Bytes for sums of products at a time.
 const MEMORY: usize = 256 << 20;
@@ -17,12 +23,19 @@ const TILE: usize = 32;
 
 /// Outputs of either side whose pairs are added up side by side: their values stay in the first-level
 /// cache and the sums in registers.
-const TOGETHER: usize = 2;
+pub(super) const TOGETHER: usize = 2;
+
+/// The values of outputs in chunks of lanes.
+pub(super) type Chunks<'v> = [&'v [[f64; LANES]]; TOGETHER];
+
+/// For each two outputs the sum of products in each lane.
+pub(super) type Products = [[[f64; LANES]; TOGETHER]; TOGETHER];
 
 /// Adds the products of a block's values to the sums; `count` trials of the block count. Every pair
 /// is added up by itself, so neither the tiles nor what runs side by side shows in the sums.
 #[inline(always)]
 pub(super) fn add<'s>(
+    path: CodePath,
     values: &[[f64; BLOCK]],
     count: usize,
     plans: &[Plan],
@@ -52,7 +65,7 @@ pub(super) fn add<'s>(
                     // at an odd end the last output stands for the one that is missing
                     let a = std::array::from_fn(|k| &rows[(i + k).min(own.end - 1) - first]);
                     let b = std::array::from_fn(|k| &columns[(j + k).min(others.end - 1) - second]);
-                    let found: [[f64; TOGETHER]; TOGETHER] = sums_of_products(a, b, count);
+                    let found: [[f64; TOGETHER]; TOGETHER] = sums_of_products(path, a, b, count);
                     for (i, found) in (i..own.end).zip(found) {
                         for (j, found) in (j..others.end).zip(found).filter(|(j, _)| *j > i) {
                             products[i][j - i - 1] += found;
@@ -77,26 +90,44 @@ fn standardize(values: &[[f64; BLOCK]], count: usize, plans: &[Plan], out: &mut 
     }
 }
 
-/// The sums of products of the first `count` values of each a and b, in lanes, then lane by lane.
+/// The sums of products of the first `count` values of each a and b, in lanes, then lane by lane. What
+/// stands behind them in the last chunk is zero.
 #[inline(always)]
 fn sums_of_products(
+    path: CodePath,
     a: [&[f64; BLOCK]; TOGETHER],
     b: [&[f64; BLOCK]; TOGETHER],
     count: usize,
 ) -> [[f64; TOGETHER]; TOGETHER] {
-    let mut sums = [[[0.0; LANES]; TOGETHER]; TOGETHER];
-    let a = a.map(|a| a.as_chunks::<LANES>().0);
-    let b = b.map(|b| b.as_chunks::<LANES>().0);
-    for chunk in 0..count.div_ceil(LANES) {
-        for (sums, a) in sums.iter_mut().zip(a) {
-            for (sums, b) in sums.iter_mut().zip(b) {
-                for ((lane, a), b) in sums.iter_mut().zip(&a[chunk]).zip(&b[chunk]) {
+    let chunks = count.div_ceil(LANES);
+    let a = a.map(|a| &a.as_chunks::<LANES>().0[..chunks]);
+    let b = b.map(|b| &b.as_chunks::<LANES>().0[..chunks]);
+    lanes_of_products(path, a, b).map(|lanes| lanes.map(pairwise))
+}
+
+/// The same in lanes.
+#[inline(always)]
+fn lanes_of_products(path: CodePath, a: Chunks<'_>, b: Chunks<'_>) -> Products {
+    #[cfg(target_arch = "x86_64")]
+    match path.instructions() {
+        // SAFETY: the machine has the instructions of a path.
+        Instructions::Avx512 => return unsafe { avx512::products(a, b) },
+        // SAFETY: as above.
+        Instructions::Avx2 => return unsafe { avx2::products(a, b) },
+        Instructions::Baseline => {}
+    }
+    let _ = path;
+    let mut products = [[[0.0; LANES]; TOGETHER]; TOGETHER];
+    for (products, a) in products.iter_mut().zip(a) {
+        for (lanes, b) in products.iter_mut().zip(b) {
+            for (a, b) in a.iter().zip(b) {
+                for ((lane, a), b) in lanes.iter_mut().zip(a).zip(b) {
                     *lane += a * b;
                 }
             }
         }
     }
-    sums.map(|sums| sums.map(pairwise))
+    products
 }
 
 /// Some chunks in waves.
@@ -113,7 +144,6 @@ mod tests {
     use super::super::totals::{ChunkSums, Totals};
     use super::super::windows::Windows;
     use super::*;
-    use crate::number::CodePath;
 
     /// Outputs that are lines of each other, more than a tile of them: coefficients 1 and -1 but for
     /// rounding.
@@ -140,7 +170,7 @@ mod tests {
             for ((sums, values), plan) in sums.iter_mut().zip(&values).zip(&plans) {
                 sums.add(CodePath::BASELINE, &values[..100], plan.reference);
             }
-            add(&values, 100, &plans, sums.iter_mut());
+            add(CodePath::BASELINE, &values, 100, &plans, sums.iter_mut());
         }
         let found = Totals::of(ChunkSums { trials: 200, outputs: sums }, Vec::new()).correlations();
         let pairs = (0..outputs).flat_map(|i| (i + 1..outputs).map(move |j| (i, j)));
@@ -148,6 +178,24 @@ mod tests {
         for ((i, j), r) in pairs.zip(found) {
             let sign = (slope(i) * slope(j)).signum();
             assert!((r - sign).abs() < 1e-13, "{i}, {j}: {r}");
+        }
+    }
+
+    /// The same bits on every path.
+    #[test]
+    fn products_are_the_same_on_every_path() {
+        let values: Vec<[f64; BLOCK]> = (0..2 * TOGETHER)
+            .map(|o| std::array::from_fn(|trial| 1.0 / (trial as f64 + o as f64 - 13.7)))
+            .collect();
+        let (a, b) = values.split_at(TOGETHER);
+        for count in [8, 16, 40, BLOCK] {
+            let of = |path| {
+                let [a, b] = [a, b].map(|some| std::array::from_fn(|k| &some[k]));
+                sums_of_products(path, a, b, count).map(|sums| sums.map(f64::to_bits))
+            };
+            for path in CodePath::available() {
+                assert_eq!(of(path), of(CodePath::BASELINE), "{count} values, {path:?}");
+            }
         }
     }
 
