@@ -6,6 +6,7 @@ from report import grown, with_capped
 
 matplotlib.use("svg")
 import matplotlib.pyplot as plt  # noqa: E402
+from matplotlib import ticker  # noqa: E402
 
 COLOURS = {"gumption": "#0b6e4f", "numpy": "#b23a48", "numba-partition": "#3d5a99"}
 LABELS = {"gumption": "gumption", "numpy": "numpy", "numba-partition": "numba, tuned by hand"}
@@ -53,6 +54,8 @@ def draw_growth(results, path):
         axes.loglog(*zip(*points), "o-", color=COLOURS["gumption"], markersize=4)
         axes.set_xlabel(growth.WHAT[what].replace("`", ""))
         axes.set_title(f"exponent {growth.exponent(points):.2f}", fontsize=9)
+        for axis in (axes.xaxis, axes.yaxis):
+            axis.set_minor_formatter(ticker.NullFormatter())
         axes.grid(True, which="major", color="#dddddd", linewidth=0.6)
         axes.set_axisbelow(True)
     panels[0].set_ylabel("CPU time, s")
