@@ -12,9 +12,7 @@ use std::arch::x86_64::{
     _mm256_sub_epi64, _mm256_sub_pd,
 };
 
-use super::plan::{LANES, Reference};
-use super::products::{Chunks, Products, TOGETHER};
-use super::sums::add_powers;
+use super::plan::{Chunks, LANES, Products, Reference, TOGETHER};
 use super::windows::Windows;
 
 /// Values in a register.
@@ -102,11 +100,10 @@ pub(super) fn keep(block: &[f64], windows: &Windows, kept: &mut Vec<f64>) -> u64
 /// # Safety
 /// As [`keep`].
 #[target_feature(enable = "avx2")]
-pub(super) fn powers(values: &[f64], reference: Reference) -> [[f64; LANES]; 4] {
+pub(super) fn powers(chunks: &[[f64; LANES]], reference: Reference) -> [[f64; LANES]; 4] {
     let middle = _mm256_set1_pd(reference.middle);
     let inverse = _mm256_set1_pd(1.0 / reference.scale);
     let mut sums: [[__m256d; 4]; REGISTERS] = [[_mm256_setzero_pd(); 4]; REGISTERS];
-    let (chunks, rest) = values.as_chunks::<LANES>();
     for chunk in chunks {
         for (register, sums) in sums.iter_mut().enumerate() {
             // SAFETY: the chunk has as many values as the registers together.
@@ -127,7 +124,6 @@ pub(super) fn powers(values: &[f64], reference: Reference) -> [[f64; LANES]; 4] 
             unsafe { _mm256_storeu_pd(to, *sum) };
         }
     }
-    add_powers(&mut lanes, rest, reference);
     lanes
 }
 

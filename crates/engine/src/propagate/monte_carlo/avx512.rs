@@ -6,20 +6,14 @@
 use std::arch::x86_64::{
     __m128i, __mmask8, _CMP_GE_OQ, _CMP_GT_OQ, _CMP_LE_OQ, _CMP_LT_OQ, _mm_storeu_si128,
     _mm512_add_pd, _mm512_castpd_si512, _mm512_cmp_pd_mask, _mm512_cvtepi64_epi16, _mm512_loadu_pd,
-    _mm512_mask_blend_pd, _mm512_maskz_compress_pd, _mm512_maskz_loadu_pd, _mm512_maskz_sub_pd,
-    _mm512_max_pd, _mm512_min_pd, _mm512_mul_pd, _mm512_set1_pd, _mm512_setzero_pd,
-    _mm512_storeu_pd, _mm512_sub_pd,
+    _mm512_mask_blend_pd, _mm512_maskz_compress_pd, _mm512_maskz_loadu_pd, _mm512_max_pd,
+    _mm512_min_pd, _mm512_mul_pd, _mm512_set1_pd, _mm512_setzero_pd, _mm512_storeu_pd,
+    _mm512_sub_pd,
 };
 
 use super::bucket_partition::{BucketLayout, ROUND};
-use super::plan::{LANES, Reference};
-use super::products::{Chunks, Products, TOGETHER};
+use super::plan::{Chunks, LANES, Products, Reference, TOGETHER};
 use super::windows::Windows;
-
-/// The lanes of a chunk that hold a value.
-fn lanes_of(chunk: &[f64]) -> __mmask8 {
-    if chunk.len() == LANES { __mmask8::MAX } else { (1 << chunk.len()) - 1 }
-}
 
 /// Appends the values that the windows keep; returns how many lie below the window about the median.
 ///
@@ -38,7 +32,7 @@ pub(super) fn keep(block: &[f64], windows: &Windows, kept: &mut Vec<f64>) -> u64
     let whole = block.len() / LANES * LANES;
     let mut first = 0;
     while first < block.len() {
-        let lanes = if first < whole { __mmask8::MAX } else { lanes_of(&block[whole..]) };
+        let lanes = if first < whole { __mmask8::MAX } else { (1 << (block.len() - whole)) - 1 };
         let value = if first < whole {
             // SAFETY: eight values from `first` on are within the block.
             unsafe { _mm512_loadu_pd(block.as_ptr().add(first)) }
@@ -130,21 +124,14 @@ pub(super) fn buckets(layout: &BucketLayout, values: &[f64], out: &mut [u16]) {
 /// # Safety
 /// As [`keep`].
 #[target_feature(enable = "avx512f,avx512dq,avx512vl,avx512bw,popcnt")]
-pub(super) fn powers(values: &[f64], reference: Reference) -> [[f64; LANES]; 4] {
+pub(super) fn powers(chunks: &[[f64; LANES]], reference: Reference) -> [[f64; LANES]; 4] {
     let middle = _mm512_set1_pd(reference.middle);
     let inverse = _mm512_set1_pd(1.0 / reference.scale);
     let mut sums = [_mm512_setzero_pd(); 4];
-    for chunk in values.chunks(LANES) {
-        let d = if chunk.len() == LANES {
-            // SAFETY: the chunk has eight values.
-            let value = unsafe { _mm512_loadu_pd(chunk.as_ptr()) };
-            _mm512_maskz_sub_pd(__mmask8::MAX, value, middle)
-        } else {
-            // SAFETY: only lanes within the chunk are read; the others add nothing.
-            let value = unsafe { _mm512_maskz_loadu_pd(lanes_of(chunk), chunk.as_ptr()) };
-            _mm512_maskz_sub_pd(lanes_of(chunk), value, middle)
-        };
-        let d = _mm512_mul_pd(d, inverse);
+    for chunk in chunks {
+        // SAFETY: the chunk has eight values.
+        let value = unsafe { _mm512_loadu_pd(chunk.as_ptr()) };
+        let d = _mm512_mul_pd(_mm512_sub_pd(value, middle), inverse);
         let d2 = _mm512_mul_pd(d, d);
         let terms = [d, d2, _mm512_mul_pd(d2, d), _mm512_mul_pd(d2, d2)];
         for (sum, term) in sums.iter_mut().zip(terms) {

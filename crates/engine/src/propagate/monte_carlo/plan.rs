@@ -26,6 +26,16 @@ pub(crate) struct Plan {
 /// Lanes of a sum: every lane adds its own trials.
 pub(super) const LANES: usize = 8;
 
+/// Outputs of either side whose products are added up side by side: their values stay in the
+/// first-level cache and the sums in registers.
+pub(super) const TOGETHER: usize = 2;
+
+/// The values of such outputs in chunks of lanes.
+pub(super) type Chunks<'v> = [&'v [[f64; LANES]]; TOGETHER];
+
+/// For each two such outputs the sum of products in each lane.
+pub(super) type Products = [[[f64; LANES]; TOGETHER]; TOGETHER];
+
 /// The sum of the lanes, in an order that every vector width can follow.
 #[inline(always)]
 pub(super) fn pairwise(lane: [f64; LANES]) -> f64 {

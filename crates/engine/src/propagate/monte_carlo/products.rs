@@ -5,7 +5,7 @@
 
 use std::ops::Range;
 
-use super::plan::{LANES, Plan, pairwise};
+use super::plan::{Chunks, LANES, Plan, Products, TOGETHER, pairwise};
 use super::sums::Sums;
 #[cfg(target_arch = "x86_64")]
 use super::{avx2, avx512};
@@ -20,16 +20,6 @@ const MEMORY: usize = 256 << 20;
 /// Outputs in a tile: the values of two tiles stay in the second-level cache while all pairs of them
 /// are added up.
 const TILE: usize = 32;
-
-/// Outputs of either side whose pairs are added up side by side: their values stay in the first-level
-/// cache and the sums in registers.
-pub(super) const TOGETHER: usize = 2;
-
-/// The values of outputs in chunks of lanes.
-pub(super) type Chunks<'v> = [&'v [[f64; LANES]]; TOGETHER];
-
-/// For each two outputs the sum of products in each lane.
-pub(super) type Products = [[[f64; LANES]; TOGETHER]; TOGETHER];
 
 /// Adds the products of a block's values to the sums; `count` trials of the block count. Every pair
 /// is added up by itself, so neither the tiles nor what runs side by side shows in the sums.

@@ -55,17 +55,30 @@ impl Sums {
 /// For the powers 1 to 4 of the values' distances from the reference the sum in each lane.
 #[inline(always)]
 fn powers(path: CodePath, values: &[f64], reference: Reference) -> [[f64; LANES]; 4] {
+    let (chunks, rest) = values.as_chunks();
+    let mut lanes = powers_of_chunks(path, chunks, reference);
+    add_powers(&mut lanes, rest, reference);
+    lanes
+}
+
+/// The same of values that fill all lanes.
+#[inline(always)]
+fn powers_of_chunks(
+    path: CodePath,
+    chunks: &[[f64; LANES]],
+    reference: Reference,
+) -> [[f64; LANES]; 4] {
     #[cfg(target_arch = "x86_64")]
     match path.instructions() {
         // SAFETY: the machine has the instructions of a path.
-        Instructions::Avx512 => return unsafe { avx512::powers(values, reference) },
+        Instructions::Avx512 => return unsafe { avx512::powers(chunks, reference) },
         // SAFETY: as above.
-        Instructions::Avx2 => return unsafe { avx2::powers(values, reference) },
+        Instructions::Avx2 => return unsafe { avx2::powers(chunks, reference) },
         Instructions::Baseline => {}
     }
     let _ = path;
     let mut lanes = [[0.0; LANES]; 4];
-    for chunk in values.chunks(LANES) {
+    for chunk in chunks {
         add_powers(&mut lanes, chunk, reference);
     }
     lanes
@@ -73,7 +86,7 @@ fn powers(path: CodePath, values: &[f64], reference: Reference) -> [[f64; LANES]
 
 /// Adds a value to each lane, from the first on.
 #[inline(always)]
-pub(super) fn add_powers(lanes: &mut [[f64; LANES]; 4], values: &[f64], reference: Reference) {
+fn add_powers(lanes: &mut [[f64; LANES]; 4], values: &[f64], reference: Reference) {
     let inverse = 1.0 / reference.scale;
     for (i, &value) in values.iter().enumerate() {
         let d = (value - reference.middle) * inverse;
