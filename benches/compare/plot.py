@@ -56,6 +56,13 @@ def draw_growth(results, path):
         axes.set_title(f"exponent {growth.exponent(points):.2f}", fontsize=9)
         for axis in (axes.xaxis, axes.yaxis):
             axis.set_minor_formatter(ticker.NullFormatter())
+        counts, times = zip(*points)
+        if max(counts) < 100 * min(counts):
+            axes.set_xticks(counts, counts)
+        if max(times) < 100 * min(times):
+            marks = [step * 10**power for power in range(-4, 3) for step in (1, 2, 5)]
+            marks = [mark for mark in marks if min(times) / 1.5 < mark < max(times) * 1.5]
+            axes.set_yticks(marks, [f"{mark:g}" for mark in marks])
         axes.grid(True, which="major", color="#dddddd", linewidth=0.6)
         axes.set_axisbelow(True)
     panels[0].set_ylabel("CPU time, s")

@@ -163,7 +163,9 @@ def waits(results):
         rows.append([*cells, "; ".join(stated)])
     head = ["", *(["before", "after", "times as fast"] if with_before else ["CPU, memory"]), "goal"]
     text = "Whole commands, from process start to exit, and tasks in Python, from the call to the "
-    text += "result: processor time of all threads and most memory.\n\n"
+    text += "result: processor time of all threads and most memory."
+    text += " Goals of seconds are for a processor with AVX-512."
+    text += " Before: an earlier version, measured in turn.\n\n" if with_before else "\n\n"
     return "## What users wait for\n\n" + text + table(head, rows)
 
 
