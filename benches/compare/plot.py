@@ -54,15 +54,12 @@ def draw_growth(results, path):
         axes.loglog(*zip(*points), "o-", color=COLOURS["gumption"], markersize=4)
         axes.set_xlabel(growth.WHAT[what].replace("`", ""))
         axes.set_title(f"exponent {growth.exponent(points):.2f}", fontsize=9)
-        for axis in (axes.xaxis, axes.yaxis):
+        for axis, values in zip((axes.xaxis, axes.yaxis), zip(*points)):
             axis.set_minor_formatter(ticker.NullFormatter())
-        counts, times = zip(*points)
-        if max(counts) < 100 * min(counts):
-            axes.set_xticks(counts, counts)
-        if max(times) < 100 * min(times):
-            marks = [step * 10**power for power in range(-4, 3) for step in (1, 2, 5)]
-            marks = [mark for mark in marks if min(times) / 1.5 < mark < max(times) * 1.5]
-            axes.set_yticks(marks, [f"{mark:g}" for mark in marks])
+            # whole powers of ten are too few
+            if max(values) < 100 * min(values):
+                axis.set_major_locator(ticker.LogLocator(subs=(1, 2, 5)))
+                axis.set_major_formatter("{x:g}")
         axes.grid(True, which="major", color="#dddddd", linewidth=0.6)
         axes.set_axisbelow(True)
     panels[0].set_ylabel("CPU time, s")

@@ -1,5 +1,5 @@
-//! How one output's trials are summed up: about which value, in which lanes, and which values are
-//! kept.
+//! How an output's trials are summed up: about which value, in which lanes, beside how many other
+//! outputs, and which values are kept.
 
 use super::windows::Windows;
 
